@@ -14,7 +14,7 @@ double number(const Json& value, const std::string& key) {
     return value.get<double>();
 }
 
-constexpr int most_depth = 16;  // written() recurses once per level
+constexpr int max_depth = 16;  // written() recurses once per level
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Json parsed(std::string_view text) {
     Json json;
     try {
         json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-            if (depth > most_depth) throw std::runtime_error("holds lists in lists without end");
+            if (depth > max_depth) throw std::runtime_error("holds lists in lists without end");
             return true;
         });
     } catch (const Json::parse_error& error) {

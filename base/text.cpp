@@ -40,9 +40,9 @@ std::string describe_volume(double mm3) {
     if (size >= 0.9995 * a_litre) return fixed(mm3 / a_litre, 3) + " l";
     const double ml = size / 1000;
     if (!(ml > 0)) return "0 ml";
-    constexpr int most_decimals = 12;
+    constexpr int max_decimals = 12;
     const int before_point = static_cast<int>(std::floor(std::log10(ml)));
-    return fixed(mm3 / 1000, std::clamp(2 - before_point, 0, most_decimals)) + " ml";
+    return fixed(mm3 / 1000, std::clamp(2 - before_point, 0, max_decimals)) + " ml";
 }
 
 std::string duration(std::uint32_t seconds) {

@@ -1,5 +1,5 @@
-// Measures the inverse kinematics of robot arms, all branches and their turns within the ranges, in calls of std::atan2
-// that are timed in the same run. CPU time of one thread.
+// Measures the inverse kinematics of robot arms, all configurations and their turns within the ranges, in calls of
+// std::atan2 that are timed in the same run. CPU time of one thread.
 
 #include "cam/cell/arm.h"
 

@@ -19,7 +19,7 @@
 #include "bench/embree_rays.h"
 #include "bench/figures.h"
 #include "bench/measures.h"
-#include "segment/access/reach_sweep.h"
+#include "segment/access/access_sweep.h"
 #include "segment/access/sampled_piece.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
@@ -51,7 +51,7 @@ std::vector<FreeRay> rays_of(const SampledScan& scan) {
     for (const SurfaceSample& sample : scan.samples.sample) {
         const Vec3 origin = sample.point + (1e-6 * scan.diagonal_mm) * sample.normal;
         for (const Vec3& d : scan.directions) {
-            if (dot(sample.normal, d) >= least_facing) rays.push_back({origin, d});
+            if (dot(sample.normal, d) >= min_facing) rays.push_back({origin, d});
         }
     }
     return rays;
@@ -139,16 +139,16 @@ void measure_sweep(const Measured& measured, const SampledScan& scan, Figures& f
         bases.reserve(caps.size());
         for (const OwnedCap& cap : caps) bases.push_back({-cap.outward, cap.cut});
         const double before = heap_bytes();
-        const ReachSweep sweep(swept.piece, judged, bases, default_tilt_deg);
+        const AccessSweep sweep(swept.piece, judged, bases, default_tilt_deg);
         const double bytes = heap_bytes() - before;
         const double preparation =
-            best_of(runs, cpu_s, [&] { return std::make_unique<ReachSweep>(swept.piece, judged, bases, 60); });
+            best_of(runs, cpu_s, [&] { return std::make_unique<AccessSweep>(swept.piece, judged, bases, 60); });
         const std::vector<Candidates> all = candidates_of(swept.piece, scan.directions);
         const double time = best_of(runs, cpu_s, [&] {
             double sum = 0;
             for (const Candidates& c : all) {
-                for (const PlaneReach& plane : sweep.sweep(c.normal, c.offsets)) {
-                    sum += least_unreachable_mm2(plane.above) + least_unreachable_mm2(plane.below);
+                for (const PlaneAccess& plane : sweep.sweep(c.normal, c.offsets)) {
+                    sum += min_unreachable_mm2(plane.above) + min_unreachable_mm2(plane.below);
                 }
             }
             return sum;
@@ -173,12 +173,12 @@ void measure_areas(const Measured& measured, const SampledScan& scan, Figures& f
         const Swept swept = shaved(measured, scan, sides);
         const std::vector<OwnedCap> caps = owned_caps(swept.piece);
         const JudgedPiece judged{scan, swept.accessibility, caps};
-        const ReachSweep sweep(swept.piece, judged, {}, default_tilt_deg);
+        const AccessSweep sweep(swept.piece, judged, {}, default_tilt_deg);
         std::vector<double> errors;    // of the piece's area
         std::vector<double> relative;  // of the cap's area
         for (const Candidates& c : candidates_of(swept.piece, scan.directions)) {
             const std::size_t n = errors.size() % c.offsets.size();
-            const std::vector<PlaneReach> planes = sweep.sweep(c.normal, c.offsets);
+            const std::vector<PlaneAccess> planes = sweep.sweep(c.normal, c.offsets);
             for (const std::size_t j : {n, (n + c.offsets.size() / 2) % c.offsets.size()}) {
                 const auto halves = cut(*swept.piece.mesh, {c.normal, c.offsets[j]}, 99);
                 if (!halves || halves->cap_area_mm2 <= 0) continue;

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "bench/clock.h"
 #include "bench/reach_judge.h"
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/search.h"
 
@@ -73,7 +73,7 @@ class StateWriter {
         const double by_area = static_cast<double>(options_.samples) * uncut_area_mm2(*piece.mesh) / scan_mm2;
         JudgeOptions judging;
         judging.tilt_deg = run_.tilt_deg;
-        judging.samples = std::max(options_.least_samples, static_cast<std::size_t>(by_area));
+        judging.samples = std::max(options_.min_samples, static_cast<std::size_t>(by_area));
         return {judge(piece, judging), unreachable_mm2(piece, run_.tilt_deg)};
     }
 
@@ -120,7 +120,7 @@ CarveRun read_run(const std::filesystem::path& folder, CarveRun run) {
         std::istringstream words(line);
         std::string word;
         if (words >> word && word == "complete:") {
-            words >> run.most_cuts >> word >> word >> word >> run.seconds;
+            words >> run.max_cuts >> word >> word >> word >> run.seconds;
         }
     }
     return run;

@@ -31,7 +31,7 @@ struct CarveRun {
     std::string method;
     int tilt_deg = 60;
     std::vector<CarveState> states;  // from the uncut scan on, by cuts
-    std::size_t most_cuts = 0;       // that were asked for; 0: the file is not there or not complete
+    std::size_t max_cuts = 0;        // that were asked for; 0: the file is not there or not complete
     double seconds = 0;              // of search and judge, from the imported scan on
 };
 
@@ -43,7 +43,7 @@ CarveRun read_run(const std::filesystem::path& folder, CarveRun run);
 struct RunOptions {
     std::size_t cuts = 16;
     std::size_t samples = 20'000;         // of the judge, over all pieces of a state by their area
-    std::size_t least_samples = 1'000;    // of each piece
+    std::size_t min_samples = 1'000;      // of each piece
     std::size_t search_samples = 20'000;  // of the search
 };
 

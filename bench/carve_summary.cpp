@@ -44,7 +44,7 @@ std::vector<CarveRun> runs_of(const std::filesystem::path& folder, const std::ve
     std::vector<CarveRun> runs;
     for (const std::string& model : models) {
         runs.push_back(read_run(folder, {model, method, tilt, {}, 0, 0}));
-        if (runs.back().most_cuts == 0) runs.back().states.clear();
+        if (runs.back().max_cuts == 0) runs.back().states.clear();
     }
     return runs;
 }

@@ -57,7 +57,7 @@ void make_small(TableChoice& choice) {
     choice.models = {"vertebra"};
     choice.run.cuts = 2;
     choice.run.samples = 2000;
-    choice.run.least_samples = 200;
+    choice.run.min_samples = 200;
     choice.run.search_samples = 2000;
 }
 
@@ -118,7 +118,7 @@ std::vector<int> missing(const TableChoice& choice, const std::string& model, co
                          const std::vector<int>& tilts) {
     std::vector<int> all;
     for (const int tilt : tilts) {
-        if (read_run(choice.out, {model, method, tilt, {}, 0, 0}).most_cuts < choice.run.cuts) all.push_back(tilt);
+        if (read_run(choice.out, {model, method, tilt, {}, 0, 0}).max_cuts < choice.run.cuts) all.push_back(tilt);
     }
     return all;
 }

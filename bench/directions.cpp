@@ -14,7 +14,7 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 #include "segment/access/tool_fit.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
@@ -45,7 +45,7 @@ void measure_directions(const Measured& measured, double reading_s, Figures& fig
     std::vector<std::uint32_t> possible(scan.directions.size());
     std::iota(possible.begin(), possible.end(), 0U);
     DirectionOptions options;
-    options.least_gain = 0;
+    options.min_gain = 0;
     const auto choose = [&] { return choose_directions(judged, {axes[2], std::nullopt}, possible, {}, options); };
     const std::string what = "choosing " + std::to_string(choose().chosen.size()) + " of " +
                              std::to_string(possible.size()) + " directions on " +
@@ -65,13 +65,13 @@ void measure_piece(const Measured& measured, Figures& figures) {
     const Piece& piece = made->pieces[0];
     const std::string name = measured.name + ", a half";
     const std::vector<PieceBase> bases = bases_of(piece);
-    const PieceReachOptions options;
-    const auto reach_all = [&] { return piece_reach(piece, {bases.data(), 1}, options); };
+    const PieceAccessOptions options;
+    const auto reach_all = [&] { return piece_access(piece, {bases.data(), 1}, options); };
     figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
     figures.record(name, "bases", time_text(best_of(runs, cpu_s, [&] { return bases_of(piece); })));
     figures.record(name, "reach from one base, 4,000 samples", time_text(best_of(runs, cpu_s, reach_all)));
-    const PieceReach reach = reach_all();
-    const JudgedPiece judged = reach.samples->judged();
+    const PieceAccess access = reach_all();
+    const JudgedPiece judged = access.samples->judged();
     const TiltBase& base = bases[0].base;
     const std::vector<std::uint32_t> possible = allowed_directions(judged.scan.directions, base.up, options.tilt_deg);
     std::vector<Vec3> dense = dense_directions();
@@ -87,7 +87,7 @@ void measure_piece(const Measured& measured, Figures& figures) {
     figures.record(name, "the same with " + std::to_string(dense.size()) + " dense directions",
                    time_text(choose(dense)));
     const auto share = [&](const UnreachableArea& area) {
-        return number_text(100 * area.total_mm2(options.tilt_deg) / reach.best().area_mm2) + " %";
+        return number_text(100 * area.total_mm2(options.tilt_deg) / access.best().area_mm2) + " %";
     };
     figures.record(name, "unreachable by the chosen, and by all",
                    share(chosen.by_chosen) + ", " + share(chosen.by_all));

@@ -1,6 +1,6 @@
 // Measures the work envelope of a setup of a 1 m piece with four directions: CPU time of one thread beside that of the
-// height maps of its directions, and the predicate of the stop rule. Also how often the search for a place of the block
-// finds one where a scan of all places does.
+// height fields of its directions, and the predicate of the stop rule. Also how often the search for a place of the
+// block finds one where a scan of all places does.
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@
 #include "bench/specimens.h"
 #include "cam/setup/block.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/envelope.h"
 #include "cam/setup/placement/place_block.h"
+#include "cam/setup/stock_fit.h"
 #include "segment/mesh/measure.h"
-#include "segment/raster/height_map.h"
+#include "segment/raster/height_field.h"
 #include "segment/search/search.h"
 #include "tests/cam/setup/random_setups.h"
 
@@ -34,7 +34,7 @@ constexpr const char* usage = R"(bench_envelope [--small] [--only GROUP]...
 
 constexpr int runs = 3;
 constexpr double longest_side = 1000;  // mm
-constexpr double cells_of_side = 700;  // as mapped_reach() takes them
+constexpr double cells_of_side = 700;  // as mapped_access() takes them
 constexpr double degree = std::numbers::pi / 180;
 
 Cell ready_cell(const std::string& name) {
@@ -60,11 +60,11 @@ Setup setup_of(const TriangleMesh& mesh, const Cell& cell, std::size_t direction
     const Margins margins = margins_of(cell);
     setup.spoil = margins.spoil;
     setup.block.size = box.size() + Vec3{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
-    setup.reach.directions.push_back({{0, 0, 1}, 0, 0, 0});
+    setup.access.orientations.push_back({{0, 0, 1}, 0, 0, 0});
     for (std::size_t i = 1; i < directions; ++i) {
         const double azimuth = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(directions - 1);
-        const Vec3 out{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
-        setup.reach.directions.push_back({out, tilt / degree, 0, 0});
+        const Vec3 tool_axis{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+        setup.access.orientations.push_back({tool_axis, tilt / degree, 0, 0});
     }
     return setup;
 }
@@ -75,24 +75,24 @@ void measure_time(const std::string& name, const TriangleMesh& mesh, double tilt
     const Setup setup = setup_of(mesh, cell, is_gantry ? 1 : 4, tilt);
     const double maps = best_of(runs, cpu_s, [&] {
         std::size_t cells = 0;
-        for (const SetupDirection& d : setup.reach.directions) {
-            cells += height_map(mesh, d.out, longest_side / cells_of_side).height.size();
+        for (const ToolOrientation& d : setup.access.orientations) {
+            cells += height_field(mesh, d.tool_axis, longest_side / cells_of_side).height.size();
         }
         return cells;
     });
-    WorkEnvelope envelope;
+    MachineReachability reachability;
     const double seconds = best_of(runs, cpu_s, [&] {
-        envelope = place_block(setup, mesh, cell);
-        return envelope.places;
+        reachability = place_block(setup, mesh, cell);
+        return reachability.places;
     });
     const std::string what = name + ", " + number_text(static_cast<double>(mesh.triangles.size())) + " faces, tilt " +
                              number_text(tilt / degree);
-    figures.record(what, "result", describe_work_envelope("A", envelope));
+    figures.record(what, "result", describe_reachability("A", reachability));
     figures.record(what, "poses, regions and places",
-                   std::to_string(envelope.poses) + ", " + std::to_string(envelope.regions.size()) + ", " +
-                       std::to_string(envelope.places));
+                   std::to_string(reachability.poses) + ", " + std::to_string(reachability.regions.size()) + ", " +
+                       std::to_string(reachability.places));
     figures.record(what, "- of it: the poses",
-                   time_text(best_of(runs, cpu_s, [&] { return carving_poses(setup, mesh, cell).size(); })));
+                   time_text(best_of(runs, cpu_s, [&] { return milling_poses(setup, mesh, cell).size(); })));
     figures.record(what, "height maps and envelope", time_text(maps) + " and " + time_text(seconds));
     figures.at_most(what, "envelope / height maps", seconds / maps, 20);
     bool fits = false;
@@ -113,7 +113,7 @@ void measure_scan(const std::string& name, int setups, double& missed, Figures& 
         const test_setups::BoxSetup s = test_setups::random_setup(cell, random);
         PlacementOptions options;
         options.poses.step = 50;
-        const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, options.poses);
+        const std::vector<OrientationPoses> poses = milling_poses(s.setup, s.mesh, cell, options.poses);
         if (place_block(s.setup, poses, cell, options).holds()) {
             ++found;
         } else if (test_setups::scan_holds(s.setup, poses, cell, {50, 10})) {
@@ -145,13 +145,13 @@ void measure_project(std::size_t faces, Figures& figures) {
         std::size_t in_boxes = 0;
         const double placing = best_of(1, cpu_s, [&] {
             for (std::size_t i = 0; i < setups.size(); ++i) {
-                const WorkEnvelope envelope = place_block(setups[i], *pieces.pieces[i].mesh, cell);
-                const bool fits = check_envelope(setups[i], cell).fits();
-                held += envelope.holds() ? 1 : 0;
+                const MachineReachability reachability = place_block(setups[i], *pieces.pieces[i].mesh, cell);
+                const bool fits = check_stock_fit(setups[i], cell).fits();
+                held += reachability.holds() ? 1 : 0;
                 in_boxes += fits ? 1 : 0;
-                if (fits && !envelope.holds()) {
+                if (fits && !reachability.holds()) {
                     figures.record(name, "refused though its boxes fit",
-                                   describe_work_envelope(pieces.pieces[i].name, envelope));
+                                   describe_reachability(pieces.pieces[i].name, reachability));
                 }
             }
             return held;

@@ -14,7 +14,7 @@
 #include "bench/reach_judge.h"
 #include "bench/specimens.h"
 #include "bench/table_models.h"
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
 #include "segment/joint/piece_joints.h"
 #include "segment/joint/seam.h"
 #include "segment/mesh/measure.h"
@@ -157,7 +157,7 @@ void print_row(const std::string& name, const std::string& method, std::size_t b
     for (const Piece& piece : pieces) boxes += print_boxes(oriented_box(piece.mesh->points).size(), printed);
     std::cout << "| " << name << " | " << method << " " << beam << " | " << pieces.size() << " | "
               << fixed(100 * unreachable_share(pieces, choice.samples), 2) << " | "
-              << contacts_of(pieces, JointSettings{}.least_mm2).size() << " | ";
+              << contacts_of(pieces, JointSettings{}.min_mm2).size() << " | ";
     for (const DowelSize& size : default_dowels()) std::cout << with_two(pieces, {size}) << " | ";
     std::cout << with_two(pieces, default_dowels()) << " | " << fixed(seam_length(pieces).visible_mm / 1000, 2) << " | "
               << fixed(boxes, 0) << " | " << fixed(seconds, 0) << " |" << std::endl;

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "devices/hand_off/first_contact.h"
@@ -110,7 +110,7 @@ struct Link {
         bus = rig::connect(*cell);
     }
     // Seconds from the order of the jobs to the end of the last, with the journal on the disk.
-    double hand_over_s(const std::vector<rig::Job>& jobs, DispatchOptions options) {
+    double dispatch_s(const std::vector<rig::Job>& jobs, DispatchOptions options) {
         Journal journal(folder / ("journal-" + std::to_string(++journals)), {any_cell_id, true, "bench"});
         std::vector<PieceJob> pieces;
         for (const rig::Job& job : jobs) {
@@ -122,7 +122,7 @@ struct Link {
         }
         options.again = true;
         const double began = wall_s();
-        const std::vector<HandedOver> handed = hand_over(pieces, *bus, options, journal, {});
+        const std::vector<DispatchedJob> handed = dispatch_jobs(pieces, *bus, options, journal, {});
         const double took = wall_s() - began;
         check(handed.size() == jobs.size() && handed.back().outcome.is_complete(), "a job did not end complete");
         return took;
@@ -147,7 +147,7 @@ double start_s(Link& link) {
     options.journal = [&](const JournalEvent& event) {
         if (event.kind == JournalKind::started) started = wall_s() - began;
     };
-    link.hand_over_s({rig::make_job(300'000, 1)}, options);
+    link.dispatch_s({rig::make_job(300'000, 1)}, options);
     return started;
 }
 
@@ -173,7 +173,7 @@ void measure_requests(Link& link, double round_trip_s, Figures& figures) {
 void measure_transfer(Link& link, double round_trip_s, Figures& figures) {
     constexpr std::size_t bytes = 4'000'000;
     const auto sent_s = [&](std::size_t size) {
-        return best_of(2, wall_s, [&] { return link.hand_over_s({rig::make_job(size, 1)}, {}); });
+        return best_of(2, wall_s, [&] { return link.dispatch_s({rig::make_job(size, 1)}, {}); });
     };
     const double seconds = sent_s(bytes) - sent_s(1000);
     figures.record("loopback", "transfer by chunks", number_text(1e-6 * bytes / seconds) + " MB/s");
@@ -186,8 +186,8 @@ void measure_jobs(Link& link, double commit_s, Figures& figures) {
     std::vector<rig::Job> jobs;
     for (std::size_t i = 0; i < 20; ++i) jobs.push_back(rig::make_job(300'000 + i, 1));
     figures.record("300 kB", "hand-off to STARTED", time_text(start_s(link)));
-    const double one = best_of(3, wall_s, [&] { return link.hand_over_s({jobs[0]}, options); });
-    const double twenty = link.hand_over_s(jobs, options);
+    const double one = best_of(3, wall_s, [&] { return link.dispatch_s({jobs[0]}, options); });
+    const double twenty = link.dispatch_s(jobs, options);
     figures.record("300 kB", "dispatch of 1 job", time_text(one));
     figures.record("300 kB", "dispatch of 20 jobs", time_text(twenty));
     figures.at_most("300 kB", "20 jobs / 20 times 1 job", twenty / (20 * one), 1.2);

@@ -48,7 +48,7 @@ std::size_t hits(const RayTree& rays, const Camera& camera, const PictureOptions
     return found;
 }
 
-void measure_pictures(const Measured& measured, double most_s, Figures& figures) {
+void measure_pictures(const Measured& measured, double max_s, Figures& figures) {
     const std::vector<Piece> pieces{measured.piece};
     const TriangleMesh& mesh = *measured.piece.mesh;
     const PictureOptions options;
@@ -70,7 +70,7 @@ void measure_pictures(const Measured& measured, double most_s, Figures& figures)
     figures.record(measured.name, "both pictures", time_text(ours));
     figures.record(measured.name, "tree, one ray per pixel, PNG of one colour",
                    time_text(tree) + ", " + time_text(rays) + ", " + time_text(png));
-    figures.at_most(measured.name, "both pictures, seconds", ours, most_s);
+    figures.at_most(measured.name, "both pictures, seconds", ours, max_s);
     figures.at_most(measured.name, "both pictures / (tree + 12 rays per pixel + PNG)", ours / beside, 1.5);
 }
 

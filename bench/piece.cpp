@@ -18,10 +18,10 @@
 #include "cam/job/read_job.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/mesh/measure.h"
-#include "sim/replay/carve_foam.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/gouge.h"
 #include "sim/replay/leftover.h"
+#include "sim/replay/mill_stock.h"
 
 namespace {
 
@@ -37,8 +37,8 @@ constexpr std::size_t listed = 12;
 // The setup of a job for its mesh, which is in setup coordinates.
 Setup setup_of_mesh(const ReadJob& job) {
     Setup setup = job.setup;
-    for (SetupDirection& direction : setup.reach.directions) {
-        direction.out = normalized(rotate(job.setup.piece_in_setup, direction.out));
+    for (ToolOrientation& orientation : setup.access.orientations) {
+        orientation.tool_axis = normalized(rotate(job.setup.piece_in_setup, orientation.tool_axis));
     }
     setup.up = {0, 0, 1};
     setup.base.reset();
@@ -49,9 +49,10 @@ Setup setup_of_mesh(const ReadJob& job) {
 ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMesh& mesh, const Cell& cell) {
     ReplayScene scene;
     scene.cell = &cell;
-    for (const SetupDirection& direction : setup.reach.directions) scene.directions.push_back({direction.out, 0, {}});
+    for (const ToolOrientation& orientation : setup.access.orientations)
+        scene.orientations.push_back({orientation.tool_axis, 0, {}});
     for (const Operation& operation : path.operations) {
-        scene.chunks.push_back({"", cell.machine->tools[operation.tool].number, operation.direction});
+        scene.chunks.push_back({"", cell.machine->tools[operation.tool].number, operation.orientation});
         scene.scallop = std::max(operation.scallop, 0.25);
     }
     const Vec3 size = setup.block.size;
@@ -87,7 +88,7 @@ ToolPath lines_of(const Toolpath& path) {
                 line.place = {k, ++number};
                 line.chunk = k;
                 line.tool = static_cast<std::uint32_t>(operation.tool);
-                line.direction = static_cast<std::uint32_t>(operation.direction);
+                line.orientation = static_cast<std::uint32_t>(operation.orientation);
                 line.feed = feed_of(operation, move.kind);
                 line.rounding = move.is_rounded ? operation.rounding : 0;
                 line.follows_line = i > 0;
@@ -119,7 +120,7 @@ void print_operations(const Toolpath& path, const Cell& cell) {
             }
         }
         std::printf("  %2zu %-14s tool %u, direction %zu: %zu runs, %.0f m of cuts, %.2f MB\n", k + 1,
-                    word_of(operation.kind), cell.machine->tools[operation.tool].number, operation.direction,
+                    word_of(operation.kind), cell.machine->tools[operation.tool].number, operation.orientation,
                     operation.runs.size(), 1e-3 * cut, 1e-6 * bytes_per_point * static_cast<double>(points));
     }
 }
@@ -178,8 +179,8 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
     const Vec3 size = setup.block.size;
     std::printf("piece %s: %zu faces, block %.0f x %.0f x %.0f\n", job.piece.c_str(), mesh.triangles.size(), size.x,
                 size.y, size.z);
-    for (const SetupDirection& d : setup.reach.directions) {
-        std::printf("  direction %.3f %.3f %.3f\n", d.out.x, d.out.y, d.out.z);
+    for (const ToolOrientation& d : setup.access.orientations) {
+        std::printf("  direction %.3f %.3f %.3f\n", d.tool_axis.x, d.tool_axis.y, d.tool_axis.z);
     }
     double before = process_cpu_s();
     const auto lap = [&](const char* what) {
@@ -196,14 +197,14 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
     ParsedProgram names;
     for (std::size_t k = 1; k <= path.operations.size(); ++k) names.files.push_back("operation " + std::to_string(k));
     FindingLog log(names);
-    std::vector<Vec3> outs;
-    for (const SceneDirection& direction : scene.directions) outs.push_back(direction.out);
-    Foam foam(scene.block, outs, replay_cell);
-    const CarveFigures carving = carve_foam(foam, lines, scene, true, log, {});
+    std::vector<Vec3> tool_axes;
+    for (const SceneOrientation& orientation : scene.orientations) tool_axes.push_back(orientation.tool_axis);
+    StockModel stock_model(scene.block, tool_axes, replay_cell);
+    const MillingFigures carving = mill_stock(stock_model, lines, scene, true, log, {});
     lap("foam");
     const GougeFigures gouges = find_gouges(lines, scene, 0.01, {});
     lap("gouges");
-    const LeftoverFigures left = measure_leftover(foam, scene, gouges.depth, {}, {});
+    const LeftoverFigures left = measure_leftover(stock_model, scene, gouges.depth, {}, {});
     lap("leftover");
     std::printf(
         "within tolerance %.2f %% of the reachable surface, which is %.1f %%; most foam %.2f mm, gouge %.3f mm, "

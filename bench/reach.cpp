@@ -28,7 +28,7 @@ constexpr int runs = 3;
 std::size_t rays_of(const SampledScan& scan) {
     std::size_t count = 0;
     for (const SurfaceSample& sample : scan.samples.sample) {
-        for (const Vec3& d : scan.directions) count += dot(sample.normal, d) >= least_facing ? 1 : 0;
+        for (const Vec3& d : scan.directions) count += dot(sample.normal, d) >= min_facing ? 1 : 0;
     }
     return count;
 }
@@ -38,7 +38,7 @@ std::size_t single_precision_hits(const SampledScan& scan, const RayTree& tree) 
     for (const SurfaceSample& sample : scan.samples.sample) {
         const Vec3 origin = sample.point + (1e-6 * scan.diagonal_mm) * sample.normal;
         for (const Vec3& d : scan.directions) {
-            if (dot(sample.normal, d) >= least_facing && tree.first_hit(origin, d)) ++hits;
+            if (dot(sample.normal, d) >= min_facing && tree.first_hit(origin, d)) ++hits;
         }
     }
     return hits;
@@ -75,7 +75,7 @@ void measure_mesh(const Measured& measured, Figures& figures) {
     const std::vector<PieceAccessibility> after = cut_accessibility(scan, whole, *made);
     const std::vector<OwnedCap> caps = owned_caps(made->pieces[0]);
     const JudgedPiece judged{scan, after[0], caps};
-    const auto judge = [&] { return least_unreachable(judged, oriented_box(mesh.points).axis, default_tilt_deg); };
+    const auto judge = [&] { return min_unreachable(judged, oriented_box(mesh.points).axis, default_tilt_deg); };
     figures.record(name, "unreachable share of its first piece", number_text(100 * judge().share()) + " %");
     const TiltBase base{made->pieces[0].half_spaces[0].up(), 1};
     const auto one = [&] { return unreachable_area(judged, base, default_tilt_deg); };

@@ -23,9 +23,9 @@
 namespace qchopper::bench {
 namespace {
 
-constexpr double least_cosine = 0.05;          // surface that faces a direction less is not open along it
+constexpr double min_cosine = 0.05;            // surface that faces a direction less is not open along it
 constexpr double away = -1e-9;                 // a cap that faces away has a cosine below this with every direction
-constexpr double least_base = 0.1;             // of the projected area
+constexpr double min_base = 0.1;               // of the projected area
 constexpr double steep_counts_from = 15;       // degrees of tilt
 constexpr double lift = 1e-6;                  // of the piece's diagonal: how far above the surface rays begin
 constexpr std::uint64_t seed = 0x9a3c5e71;     // not that of the search
@@ -116,7 +116,7 @@ std::vector<Cap> caps_of(const Piece& piece) {
 std::vector<Cap> bases_of(const TriangleMesh& mesh, const std::vector<Cap>& caps) {
     std::vector<Cap> bases;
     for (const Cap& cap : caps) {
-        if (cap.area_mm2 >= least_base * projected_area_mm2(mesh, cap.up)) bases.push_back(cap);
+        if (cap.area_mm2 >= min_base * projected_area_mm2(mesh, cap.up)) bases.push_back(cap);
     }
     if (!bases.empty()) return bases;
     for (const Vec3& axis : oriented_box(mesh.points).axis) {
@@ -185,7 +185,7 @@ class PieceJudge {
     bool is_reached(const Sample& sample, const std::vector<Vec3>& directions, std::size_t& last) const {
         const Vec3 origin = (sample.point - centre_) + lift_mm_ * sample.normal;
         const auto is_open = [&](const Vec3& d) {
-            return dot(sample.normal, d) >= least_cosine && rays_.is_free({origin, d});
+            return dot(sample.normal, d) >= min_cosine && rays_.is_free({origin, d});
         };
         if (is_open(directions[last])) return true;
         const auto open = std::find_if(directions.begin(), directions.end(), is_open);
@@ -198,7 +198,7 @@ class PieceJudge {
     bool is_pardoned(const Sample& sample, const std::vector<Vec3>& directions) const {
         return options_.tilt_deg < steep_counts_from &&
                std::any_of(directions.begin(), directions.end(),
-                           [&](const Vec3& d) { return std::abs(dot(sample.normal, d)) < least_cosine; });
+                           [&](const Vec3& d) { return std::abs(dot(sample.normal, d)) < min_cosine; });
     }
 
     const Piece& piece_;

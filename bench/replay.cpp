@@ -20,7 +20,7 @@ using namespace qchopper;
 using namespace qchopper::bench;
 
 constexpr const char* usage = "bench_replay JOB CELL\n  JOB   an undivided job, or the first part, with a program\n";
-constexpr double least_ratio = 100;  // of the program's time to that of its replay at 1 mm
+constexpr double min_ratio = 100;  // of the program's time to that of its replay at 1 mm
 
 struct Replayed {
     double cpu_s = 0;
@@ -52,7 +52,7 @@ int measure(const std::string& job_file, const std::string& cell_file) {
         figures.record(job.piece, "program", time_text(run.program_s));
         figures.record(job.piece, at + ", CPU time", time_text(run.cpu_s));
         if (replay_cell == 1) {
-            figures.at_least(job.piece, at + ", times faster than real time", ratio, least_ratio);
+            figures.at_least(job.piece, at + ", times faster than real time", ratio, min_ratio);
         } else {
             figures.record(job.piece, at + ", times faster than real time", number_text(ratio));
         }

@@ -1,4 +1,4 @@
-// Measures what a direction of a setup costs with all its figures, from a height map: CPU time of one thread beside
+// Measures what a direction of a setup costs with all its figures, from a height field: CPU time of one thread beside
 // OpenMesh's reading of the same piece as a binary PLY, and the memory beside the mesh. Also the directions that an arm
 // holds, and all setups of a project beside the search that made its pieces.
 
@@ -19,9 +19,9 @@
 #include "bench/other_readers.h"
 #include "bench/specimens.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/foam_points.h"
-#include "cam/setup/held_directions.h"
-#include "cam/setup/mapped_reach.h"
+#include "cam/setup/mapped_access.h"
+#include "cam/setup/reachable_directions.h"
+#include "cam/setup/stock_points.h"
 #include "segment/access/tool_directions.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
@@ -72,7 +72,7 @@ void measure_map(const TriangleMesh& mesh, const std::string& name, Figures& fig
     double theirs = ours;
     for (int i = 0; i < runs; ++i) {
         theirs = std::min(theirs, best_of(1, cpu_s, [&] { return openmesh_read(folder.path() / "piece.ply", false); }));
-        ours = std::min(ours, best_of(1, cpu_s, [&] { return mapped_reach(setup, {.cell = cell}); }));
+        ours = std::min(ours, best_of(1, cpu_s, [&] { return mapped_access(setup, {.cell = cell}); }));
     }
     figures.record(name, "one direction, and OpenMesh's reading of the PLY",
                    time_text(ours) + " and " + time_text(theirs));
@@ -81,32 +81,32 @@ void measure_map(const TriangleMesh& mesh, const std::string& name, Figures& fig
     const auto step = [&](const std::string& what, const auto& work) {
         figures.record(name, "- of it: " + what, time_text(best_of(runs, cpu_s, work)));
     };
-    HeightMap map = height_map(mesh, setup.up, cell);
+    HeightField map = height_field(mesh, setup.up, cell);
     figures.record(name, "cells of the map", number_text(static_cast<double>(map.height.size())));
-    step("height map", [&] { return height_map(mesh, setup.up, cell); });
+    step("height map", [&] { return height_field(mesh, setup.up, cell); });
     step("reached share, once for the map and once where the holder raises it",
          [&] { return reached_share(mesh, map).size() + reached_share(mesh, map).size(); });
     const Box box{{setup.block.min.x + 10, setup.block.min.y + 10, 0}, setup.block.max - Vec3{10, 10, 10}};
-    const FoamPoints all(mesh, setup.piece_in_setup, box, MapOptions{}.foam_points);
+    const StockPoints all(mesh, setup.piece_in_setup, box, HeightFieldOptions{}.stock_points);
     step("points of foam outside of the piece",
-         [&] { return FoamPoints(mesh, setup.piece_in_setup, box, MapOptions{}.foam_points); });
+         [&] { return StockPoints(mesh, setup.piece_in_setup, box, HeightFieldOptions{}.stock_points); });
     step("foam above the map taken away", [&] {
-        FoamPoints foam = all;
-        foam.carve(map);
-        return foam;
+        StockPoints stock_points = all;
+        stock_points.mill(map);
+        return stock_points;
     });
-    const HeightMap wide = coarser(map, ball_radius / 3.5 / cell);
+    const HeightField wide = coarser(map, ball_radius / 3.5 / cell);
     step("closing by the ball, for the residue",
          [&] { return closed_by_ball(coarser(map, ball_radius / 3.5 / cell), ball_radius); });
-    const HeightMap closed = closed_by_ball(wide, ball_radius);
+    const HeightField closed = closed_by_ball(wide, ball_radius);
     step("foam above the closing taken away", [&] {
-        FoamPoints foam = all;
-        foam.carve(map, {&wide, &closed});
-        return foam;
+        StockPoints stock_points = all;
+        stock_points.mill(map, {&wide, &closed});
+        return stock_points;
     });
     step("holder and spindle", [&] {
-        HeightMap raised = map;
-        return raise_to_holder_limit(raised, *setup.tool, setup.piece_in_setup);
+        HeightField raised = map;
+        return raise_to_holder_clearance(raised, *setup.tool, setup.piece_in_setup);
     });
 }
 
@@ -135,8 +135,10 @@ double peak_bytes(const Work& work) {
 // Two measures with cells of two sizes tell the bytes of a cell from those of a face.
 void measure_memory(const TriangleMesh& mesh, const std::string& name, Figures& figures) {
     const MappedSetup setup = setup_of(mesh);
-    const auto peak = [&](double side) { return peak_bytes([&] { return mapped_reach(setup, {.cell = side}); }); };
-    const auto cells = [&](double side) { return static_cast<double>(height_map(mesh, setup.up, side).height.size()); };
+    const auto peak = [&](double side) { return peak_bytes([&] { return mapped_access(setup, {.cell = side}); }); };
+    const auto cells = [&](double side) {
+        return static_cast<double>(height_field(mesh, setup.up, side).height.size());
+    };
     peak(cell);
     const double coarse = peak(cell);
     const double fine = peak(cell / 4);
@@ -163,8 +165,9 @@ void measure_arm(Figures& figures) {
         for (const double side : {300.0, 900.0}) {
             const Box box{{-side / 2, -side / 2, 0}, {side / 2, side / 2, side}};
             const std::string what = ", box of " + number_text(side) + " mm";
-            const double seconds = best_of(runs, cpu_s, [&] { return held_directions(ready, box, 10, directions); });
-            const std::vector<std::uint8_t> flags = held_directions(ready, box, 10, directions);
+            const double seconds =
+                best_of(runs, cpu_s, [&] { return reachable_directions(ready, box, 10, directions); });
+            const std::vector<std::uint8_t> flags = reachable_directions(ready, box, 10, directions);
             figures.record(
                 name, "directions held" + what,
                 std::to_string(std::count(flags.begin(), flags.end(), 1)) + " of " + std::to_string(flags.size()));
@@ -192,7 +195,7 @@ void measure_project(std::size_t faces, Figures& figures) {
             const SetupChoice choice = choose_setup(piece, ready);
             maps += static_cast<std::size_t>(
                 std::count_if(choice.setups.begin(), choice.setups.end(),
-                              [](const Setup& setup) { return setup.reach.method == ReachMethod::mapped; }));
+                              [](const Setup& setup) { return setup.access.method == AccessMethod::mapped; }));
         }
         return maps;
     });

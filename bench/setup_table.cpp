@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "bench/choice.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/envelope.h"
+#include "cam/setup/stock_fit.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/search/search.h"
@@ -99,10 +99,10 @@ struct Area {
     double holder_mm2 = 0;  // of it
     double all_mm2 = 0;     // out of reach of all directions that can be held, by samples
     void add(const Setup& setup) {
-        whole_mm2 += setup.reach.area_mm2;
-        holder_mm2 += setup.reach.holder_mm2;
-        all_mm2 += setup.reach.all_directions_share * setup.reach.area_mm2;
-        unreachable_mm2 += setup.reach.unreachable_mm2();
+        whole_mm2 += setup.access.area_mm2;
+        holder_mm2 += setup.access.holder_mm2;
+        all_mm2 += setup.access.all_directions_share * setup.access.area_mm2;
+        unreachable_mm2 += setup.access.unreachable_mm2();
     }
     void add(const Area& other) {
         whole_mm2 += other.whole_mm2;
@@ -123,7 +123,7 @@ struct PieceResult {
 // The base with the least undercut of those whose block fits into the cell; the lowest number of equal ones.
 int base_of_thesis(const std::vector<Setup>& setups, const Cell& cell) {
     const auto key = [&](const Setup& s) {
-        return std::tuple(!check_envelope(s, cell).fits(), s.undercut, s.base_number);
+        return std::tuple(!check_stock_fit(s, cell).fits(), s.undercut, s.base_number);
     };
     return std::min_element(setups.begin(), setups.end(),
                             [&](const Setup& a, const Setup& b) { return key(a) < key(b); })
@@ -141,11 +141,11 @@ PieceResult result_of(const Piece& piece, const Cell& cell) {
         }
         options.max_directions = counts[i];
         options.samples = samples;
-        options.map = {.cell = map_cell, .foam_points = 1U << 16U};
+        options.map = {.cell = map_cell, .stock_points = 1U << 16U};
         const std::vector<Setup> setups = choose_setup(piece, cell, options).setups;
-        const EnvelopeReport envelope = check_envelope(setups.front(), cell);
-        if (!envelope.fits()) {
-            result.why_not = describe_envelope(piece.name, envelope);
+        const StockFit stock_fit = check_stock_fit(setups.front(), cell);
+        if (!stock_fit.fits()) {
+            result.why_not = describe_stock_fit(piece.name, stock_fit);
             return result;
         }
         result.chosen[i].add(setups.front());

@@ -36,7 +36,7 @@ double deviation_of(const TriangleMesh& mesh, const TriangleMesh& fewer) {
 
 void measure_passes(const std::string& name, const TriangleMesh& mesh, std::size_t faces, Figures& figures) {
     SimplifyOptions options;
-    options.most_faces = faces;
+    options.max_faces = faces;
     double whole = INFINITY;
     double deviation = INFINITY;
     double theirs = INFINITY;
@@ -69,7 +69,7 @@ void measure_passes(const std::string& name, const TriangleMesh& mesh, std::size
 void measure_queue(const std::string& name, const TriangleMesh& mesh, std::size_t faces, Figures& figures) {
     TriangleMesh fewer = mesh;
     CollapseLimits limits;
-    limits.most_faces = faces;
+    limits.max_faces = faces;
     const double seconds = best_of(1, cpu_s, [&] { return collapse_edges(fewer, {}, limits); });
     figures.record(name, "simplified by the queue", time_text(seconds));
     figures.record(name, "deviation of the queue", mm(deviation_of(mesh, fewer)));

@@ -1,4 +1,4 @@
-// Height maps, tip surfaces and finishing passes of one direction: CPU time, points, length, and what a replay of the
+// Height fields, CL surfaces and finishing passes of one direction: CPU time, points, length, and what a replay of the
 // passes leaves. bench_toolpath [SCAN|ball [SIZE_MM [ROUNDING_MM [CELL_MM]]]]
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "bench/clock.h"
 #include "bench/specimens.h"
-#include "cam/stock/tip_surface.h"
+#include "cam/stock/cl_surface.h"
 #include "cam/toolpath/finishing.h"
 #include "segment/mesh/measure.h"
 #include "tests/cam/toolpath/replay.h"
@@ -18,7 +18,7 @@
 namespace qchopper::bench {
 namespace {
 
-constexpr std::size_t most_replayed_cells = 4'000'000;
+constexpr std::size_t max_replayed_cells = 4'000'000;
 
 // As it lies, in a block with 10 mm around it.
 Setup standing(const TriangleMesh& mesh) {
@@ -28,12 +28,12 @@ Setup standing(const TriangleMesh& mesh) {
     setup.box = {box.min + setup.piece_in_setup.shift, box.max + setup.piece_in_setup.shift};
     setup.spoil = 15;
     setup.block.size = box.size() + Vec3{20, 20, 25};
-    setup.reach.directions.push_back({{0, 0, 1}, 0, 0, 0});
+    setup.access.orientations.push_back({{0, 0, 1}, 0, 0, 0});
     return setup;
 }
 
-CarvingTool ball_tool(double diameter) {
-    CarvingTool tool;
+CuttingTool ball_tool(double diameter) {
+    CuttingTool tool;
     tool.diameter = diameter;
     tool.corner_radius = 0.5 * diameter;
     tool.flute_length = 60;
@@ -43,16 +43,16 @@ CarvingTool ball_tool(double diameter) {
 
 void measure_tips(const Setup& setup, const TriangleMesh& mesh, double cell) {
     const double begin = process_cpu_s();
-    const HeightMap map = target_map(setup, mesh, 0, {cell, -6, 6});
+    const HeightField map = piece_height_field(setup, mesh, 0, {cell, -6, 6});
     const double mapped = process_cpu_s();
-    const HeightMap tip = tip_surface(map, ball_tool(12));
+    const HeightField tip = cl_surface(map, ball_tool(12));
     const double end = process_cpu_s();
     const double millions = 1e-6 * static_cast<double>(map.height.size());
     std::printf("cell %.2f mm: %.2f M cells, map %.2f s, tips %.2f s: %.1f M positions per core-second\n", cell,
                 millions, mapped - begin, end - mapped, millions / (end - mapped));
 }
 
-void print_passes(const char* name, const std::vector<Pass>& passes, double carved_m2) {
+void print_passes(const char* name, const std::vector<Pass>& passes, double milled_m2) {
     std::size_t rounded = 0;
     for (const Pass& pass : passes) {
         for (const PassPoint& point : pass.points) rounded += point.is_rounded ? 1 : 0;
@@ -61,8 +61,8 @@ void print_passes(const char* name, const std::vector<Pass>& passes, double carv
     const double metres = 1e-3 * test_pieces::length_of(passes);
     std::printf(
         "  %s: %zu passes, %.0f m, %.0f points, %.0f %% rounded; of %.3f m2: %.0f m, %.0f points, %.2f MB per m2\n",
-        name, passes.size(), metres, points, 100 * static_cast<double>(rounded) / points, carved_m2, metres / carved_m2,
-        points / carved_m2, 46e-6 * points / carved_m2);
+        name, passes.size(), metres, points, 100 * static_cast<double>(rounded) / points, milled_m2, metres / milled_m2,
+        points / milled_m2, 46e-6 * points / milled_m2);
 }
 
 bool is_level(const Pass& pass) {
@@ -71,8 +71,8 @@ bool is_level(const Pass& pass) {
 }
 
 // What is left over the points that the tool reaches to within `reach`.
-void print_leftover(const std::vector<test_pieces::SurfacePoint>& points, const HeightMap& closing,
-                    const HeightMap& left, double reach, double allowed) {
+void print_leftover(const std::vector<test_pieces::SurfacePoint>& points, const HeightField& closing,
+                    const HeightField& left, double reach, double allowed) {
     double all = 0;
     double reachable = 0;
     double within = 0;
@@ -91,30 +91,30 @@ void print_leftover(const std::vector<test_pieces::SurfacePoint>& points, const 
 
 // Finishing of all that is seen from above.
 void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell, double rounding) {
-    const CarvingTool tool = ball_tool(12);
+    const CuttingTool tool = ball_tool(12);
     FinishingOptions options;
     options.rounding = rounding;
     const double begin = process_cpu_s();
-    const HeightMap map = target_map(setup, mesh, 0, {cell, -6, 6});
-    const HeightMap tip = tip_surface(map, tool);
-    const HeightMap closing = remaining_surface(tip, tool);
+    const HeightField map = piece_height_field(setup, mesh, 0, {cell, -6, 6});
+    const HeightField tip = cl_surface(map, tool);
+    const HeightField closing = remaining_surface(tip, tool);
     const FinishingRegion region =
-        SurfaceLeft(mesh, std::nullopt).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
+        RestMaterial(mesh, std::nullopt).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
     const double ready = process_cpu_s();
     std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
     const double end = process_cpu_s();
     std::printf("cell %.2f mm: maps and region %.2f s, passes %.2f s\n", cell, ready - begin, end - ready);
     const auto points = test_pieces::surface_points(mesh, map, 1);
-    double carved = 0;
-    for (const auto& p : points) carved += 1e-6 * p.area;
+    double milled = 0;
+    for (const auto& p : points) milled += 1e-6 * p.area;
     const auto rows = std::stable_partition(passes.begin(), passes.end(), is_level);
-    print_passes("levels", {passes.begin(), rows}, carved);
-    print_passes("rows", {rows, passes.end()}, carved);
-    print_passes("all", passes, carved);
-    if (map.height.size() > most_replayed_cells) return;
-    HeightMap stock = map;
+    print_passes("levels", {passes.begin(), rows}, milled);
+    print_passes("rows", {rows, passes.end()}, milled);
+    print_passes("all", passes, milled);
+    if (map.height.size() > max_replayed_cells) return;
+    HeightField stock = map;
     std::fill(stock.height.begin(), stock.height.end(), 1e6F);
-    const HeightMap left = test_pieces::replayed(stock, passes, tool);
+    const HeightField left = test_pieces::replayed(stock, passes, tool);
     for (const double cells : {0.75, 2.0}) {
         print_leftover(points, closing, left, options.scallop + cells * cell, options.scallop + 0.5);
     }

@@ -34,11 +34,11 @@ constexpr const char* usage = R"(bench_whole_toolpath [--small] [--data FOLDER] 
 // Large enough for everything, a gantry, with tools as long as the piece is high.
 Cell large_cell(double length) {
     Cell cell = read_cell(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
-    cell.reach = {{-5000, -5000, -1000}, {5000, 5000, 5000}};
+    cell.workspace = {{-5000, -5000, -1000}, {5000, 5000, 5000}};
     cell.table = {0, 0, 4000, 4000, 0};
     cell.stock = {{"sawn", {3000, 3000, 3000}, Material::pu_foam, true, 3}};
     cell.machine->robot.reset();
-    for (CarvingTool& tool : cell.machine->tools) tool.stick_out = length;
+    for (CuttingTool& tool : cell.machine->tools) tool.stick_out = length;
     return cell;
 }
 
@@ -109,14 +109,14 @@ const char* word_of(OperationKind kind) {
 }
 
 double reached_m2(const Setup& setup) {
-    const SurfaceReach& reach = setup.reach;
-    return 1e-6 * (reach.area_mm2 - reach.unreachable_mm2());
+    const SurfaceAccess& access = setup.access;
+    return 1e-6 * (access.area_mm2 - access.unreachable_mm2());
 }
 
 void record(const std::string& name, const Setup& setup, const Toolpath& path, Figures& figures) {
     const double area = reached_m2(setup);
     figures.record(name, "surface reached, directions",
-                   number_text(area) + " m2, " + std::to_string(setup.reach.directions.size()));
+                   number_text(area) + " m2, " + std::to_string(setup.access.orientations.size()));
     for (const auto& [kind, totals] : totals_of(path)) {
         const double points = static_cast<double>(totals.points);
         figures.record(name, std::string(word_of(kind)) + ": length of cuts, points, of them at the end of cuts, runs",

@@ -8,7 +8,7 @@
 
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/terminal.h"
-#include "app/report/cell/hand_over_report.h"
+#include "app/report/cell/dispatch_report.h"
 
 namespace qchopper {
 
@@ -32,6 +32,6 @@ int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
 
 // For dry-run and dispatch: shows table or document and returns the exit code.
-int show(const HandOverReport& report, const std::string& schema, Terminal& terminal);
+int show(const DispatchReport& report, const std::string& schema, Terminal& terminal);
 
 }  // namespace qchopper

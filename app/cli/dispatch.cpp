@@ -28,7 +28,7 @@ DispatchRequest request_of(const DispatchArguments& arguments) {
 
 }  // namespace
 
-int show(const HandOverReport& report, const std::string& schema, Terminal& terminal) {
+int show(const DispatchReport& report, const std::string& schema, Terminal& terminal) {
     for (const std::string& sentence : report.refused) terminal.error(sentence);
     terminal.show(report.refused.empty() ? lines(report) : std::vector<std::string>{"no job was sent"},
                   document(report, schema));

@@ -114,10 +114,10 @@ bool is_plain_terminal() {
 }  // namespace
 
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
-    constexpr double most_s = 99 * 3600;
+    constexpr double max_s = 99 * 3600;
     if (elapsed_s < 1 || done == 0 || done >= total) return {};
     const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
-    if (left_s > most_s) return {};
+    if (left_s > max_s) return {};
     return ", about " + duration(static_cast<std::uint32_t>(std::ceil(left_s))) + " left";
 }
 

@@ -57,7 +57,7 @@ class Terminal {
 
     // From now on a stop that is not answered at once ends the process: unfinished files are removed (unfinished.h),
     // `report` prints why, and no destructor runs. For commands that a kill at any moment does not harm; not for those
-    // that lead a carving cell.
+    // that lead a milling cell.
     void end_when_stopped(std::function<void()> report);
     // The program is about to report its end itself. Does not return if that has been done meanwhile.
     void begin_end();

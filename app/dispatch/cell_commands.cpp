@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "devices/hand_off/cell_control.h"
 #include "devices/hand_off/journal_history.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 #include "devices/hand_off/request_socket.h"
 #include "devices/hand_off/seen_store.h"
 #include "devices/wire/device_error.h"

@@ -1,4 +1,4 @@
-// The checks cost O(bytes of the jobs), the hand-off as hand_over.h says.
+// The checks cost O(bytes of the jobs), the hand-off as dispatch_jobs.h says.
 
 #include "app/dispatch/dispatch_project.h"
 
@@ -26,7 +26,7 @@ std::vector<std::string> with(std::vector<std::string> sentences, const char* wh
 // Asks where there is somebody to answer.
 std::vector<std::string> why_not_held(const std::vector<PieceJob>& jobs, const Operator& person,
                                       const ProjectContext& context) {
-    std::vector<std::string> sentences = unheld_jobs(jobs);
+    std::vector<std::string> sentences = jobs_failing_workholding(jobs);
     if (sentences.empty()) return {};
     if (person.can_answer) {
         context.warn(sentences);
@@ -46,7 +46,7 @@ std::vector<std::string> why_not_any_cell(const ProjectJobs& ordered, const Disp
     return why;
 }
 
-// What is assumed may be planned and simulated with, never carved with.
+// What is assumed may be planned and simulated with, never milled with.
 void refuse_uncertain(const Cell& cell) {
     const CellCheck check = check_cell(cell);
     if (check.may_be_dispatched()) return;
@@ -107,14 +107,14 @@ DispatchOptions options_of(const DispatchRequest& request, const Cell& cell, con
 }
 
 // With the journal of the cell, and a socket for other programs of this user that want the cell to be told something.
-std::vector<HandedOver> hand_over_with_journal(const std::vector<PieceJob>& jobs, ModbusTcpBus& bus,
-                                               DispatchOptions options, const ProjectContext& context) {
+std::vector<DispatchedJob> dispatch_with_journal(const std::vector<PieceJob>& jobs, ModbusTcpBus& bus,
+                                                 DispatchOptions options, const ProjectContext& context) {
     const JournalCell cell = journal_cell(options.cell_id, options.want_simulated, bus.peer());
     Journal journal(journal_folder(cell), cell);
     RequestSocket requests(journal_folder(cell));
     options.request = [&] { return requests.next(); };
     options.answer_request = [&](const std::string& answer) { requests.answer(answer); };
-    return hand_over(jobs, bus, options, journal, context);
+    return dispatch_jobs(jobs, bus, options, journal, context);
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
         if (!answer.refused.empty()) return answer;
     }
     answer.is_simulated = options.want_simulated;
-    answer.handed = hand_over_with_journal(ordered.jobs, bus, options, context);
+    answer.handed = dispatch_with_journal(ordered.jobs, bus, options, context);
     return answer;
 }
 

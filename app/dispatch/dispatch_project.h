@@ -1,6 +1,6 @@
 // Hands the jobs of a project to a cell, after all that speaks against it was looked at.
 //
-// The checks in their order; with the first that is not passed nothing is sent (tests/app/cli/hand_over_test.cpp):
+// The checks in their order; with the first that is not passed nothing is sent (tests/app/cli/dispatch_jobs_test.cpp):
 //   1. No job has a negative verdict, or one of other bytes (proven_jobs.h).
 //   2. No job leaves more surface out of reach than its limit, unless that is accepted.
 //   3. Every piece is held, unless that is accepted, beforehand or by the operator who is asked.
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "app/dispatch/operator.h"
 #include "app/store/project_context.h"
 
@@ -34,19 +34,19 @@ struct DispatchRequest {
     bool is_confirmed = false;                  // a real cell may be set in motion without a question
     bool accept_unreachable = false;
     bool accept_workholding = false;
-    bool again = false;     // also a file that the cell has carved before
+    bool again = false;     // also a file that the cell has milled before
     bool rehearse = false;  // REHEARSE before PREPARE
     std::uint32_t takeover_code = 0;
 };
 
 struct DispatchAnswer {
-    std::vector<HandedOver> handed;
+    std::vector<DispatchedJob> handed;
     std::size_t wanted = 0;            // jobs to be handed over
     bool is_simulated = false;         // the cell; false if none was asked
     std::vector<std::string> refused;  // why no job was sent; empty: they were
 };
 
-// What speaks against a job is an answer. Throws what jobs_of, hand_over and `person` throw; InputError: (use) no
+// What speaks against a job is an answer. Throws what jobs_of, dispatch_jobs and `person` throw; InputError: (use) no
 // address or drop folder is known, (create) the drop folder is not there, (config) the cell file is not certain;
 // DeviceError: the cell does not answer. context.saved() says what an earlier dispatch left open, where the cell could
 // not be asked.

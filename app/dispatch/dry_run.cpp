@@ -1,4 +1,4 @@
-// The cell gives consent at once. The cost is that of hand_over.h.
+// The cell gives consent at once. The cost is that of dispatch_jobs.h.
 
 #include "app/dispatch/dry_run.h"
 
@@ -34,7 +34,7 @@ void warn_of(const ProjectJobs& ordered, const ProjectContext& context) {
     for (const std::string& sentence : unreachable_jobs(ordered.jobs)) {
         context.warn({sentence + "; dispatch asks for --accept-unreachable"});
     }
-    for (const std::string& sentence : unheld_jobs(ordered.jobs)) {
+    for (const std::string& sentence : jobs_failing_workholding(ordered.jobs)) {
         context.warn({sentence + "; dispatch asks before it sends it"});
     }
 }
@@ -67,7 +67,7 @@ DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context
     options.timings.poll_s = 0.02;
     const TemporaryFolder state("qchopper-dry-run-journal-");
     Journal journal(state.path(), {ordered.cell.id, true, "dry-run"});
-    return {hand_over(ordered.jobs, bus, options, journal, context), ordered.jobs.size(),
+    return {dispatch_jobs(ordered.jobs, bus, options, journal, context), ordered.jobs.size(),
             next_command(ordered, request)};
 }
 

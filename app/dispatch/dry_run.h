@@ -1,7 +1,7 @@
 // Hands the jobs of a project to a simulated cell in this process, over TCP.
 //
 // What dispatch would refuse is warned of and rehearsed all the same; of an unfinished project the jobs that are
-// written so far. The user's journals are never touched (tests/app/cli/hand_over_test.cpp).
+// written so far. The user's journals are never touched (tests/app/cli/dispatch_jobs_test.cpp).
 
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "app/store/project_context.h"
 
 namespace qchopper {
@@ -22,14 +22,14 @@ struct DryRunRequest {
 };
 
 struct DryRunAnswer {
-    std::vector<HandedOver> handed;
+    std::vector<DispatchedJob> handed;
     std::size_t wanted = 0;  // jobs to be handed over
     // The command that hands the jobs to a cell; "" if dispatch would refuse one. What the cell file does not tell
     // stands in capitals, for a person to fill in.
     std::string next;
 };
 
-// Throws what jobs_of and hand_over throw.
+// Throws what jobs_of and dispatch_jobs throw.
 DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context);
 
 }  // namespace qchopper

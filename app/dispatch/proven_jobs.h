@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 
 namespace qchopper {
 

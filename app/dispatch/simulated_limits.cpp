@@ -25,7 +25,7 @@ CellLimits simulated_limits(const Cell& cell) {
     CellLimits limits;
     limits.cell_id = cell.id;
     const Vec3 base{cell.table.centre_x, cell.table.centre_y, cell.table.height + margins_of(cell).spoil};
-    limits.reach = {cell.reach.min - base, cell.reach.max - base};
+    limits.workspace = {cell.workspace.min - base, cell.workspace.max - base};
     limits.max_stock = largest_stock(cell);
     for (const Tool& tool : tools_of(cell)) {
         limits.tools.push_back({tool.number, tool.diameter, tool.spindle_max_rpm, tool.feed_max_mm_per_min});

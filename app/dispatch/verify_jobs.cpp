@@ -8,7 +8,7 @@
 #include <iterator>
 #include <span>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "app/engine/open_project.h"
 #include "app/jobs/hole_faults.h"
 #include "app/jobs/job_proof.h"
@@ -54,7 +54,7 @@ std::vector<VerdictFinding> faults_against_cell(const ReadJob& job, const Cell& 
                                      "cell file give"));
         }
     }
-    if (!job.envelope.fits() || !job.holds_poses) {
+    if (!job.stock_fit.fits() || !job.holds_poses) {
         faults.push_back(finding("does_not_fit", "the job states that its piece does not fit the cell"));
     }
     return faults;
@@ -84,11 +84,11 @@ void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell
     verdict.notes = std::move(proof.notes);
 }
 
-// Lists at most most_listed_findings of them.
+// Lists at most max_listed_findings of them.
 void shorten(JobVerdict& verdict) {
-    if (verdict.findings.size() <= most_listed_findings) return;
-    verdict.findings_left_out += verdict.findings.size() - most_listed_findings;
-    verdict.findings.resize(most_listed_findings);
+    if (verdict.findings.size() <= max_listed_findings) return;
+    verdict.findings_left_out += verdict.findings.size() - max_listed_findings;
+    verdict.findings.resize(max_listed_findings);
 }
 
 JobVerdict without_findings(const ReadJob& job, const std::string& job_file, const CellFile& cell,
@@ -128,10 +128,10 @@ std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std:
 std::optional<VerdictFinding> fault_against_setup(const ReadJob& job, const Setup& own) {
     if (job.setup == own) return std::nullopt;
     const std::string text = "the setup of the job is not that of the project for piece " + job.piece;
-    const std::size_t directions = job.setup.reach.directions.size();
-    if (directions != own.reach.directions.size()) {
+    const std::size_t directions = job.setup.access.orientations.size();
+    if (directions != own.access.orientations.size()) {
         return finding("other_setup", text + ": " + counted(directions, "direction") + " instead of " +
-                                          std::to_string(own.reach.directions.size()));
+                                          std::to_string(own.access.orientations.size()));
     }
     if (job.setup.tools != own.tools) return finding("other_setup", text + ": other tools may be used");
     return finding("other_setup", text);

@@ -46,7 +46,7 @@ VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std
 
 // All jobs of a project, or those of one piece, in the order of its pieces. Parts of a program have to follow each
 // other, each carrying the stock that the replay of the one before left, and its SHA-256. Throws what jobs_of
-// (hand_over.h) throws.
+// (dispatch_jobs.h) throws.
 VerifyAnswer verify_project(const std::filesystem::path& folder, const std::optional<std::string>& piece,
                             const std::string& program_version, const ProjectContext& context);
 

@@ -9,10 +9,10 @@
 #include "app/store/replay.h"
 #include "base/error.h"
 #include "base/timings.h"
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
+#include "segment/search/access_rank.h"
 #include "segment/search/candidates/evaluate.h"
 #include "segment/search/rank.h"
-#include "segment/search/reach_rank.h"
 
 namespace qchopper {
 namespace {
@@ -55,12 +55,12 @@ std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const Se
     const Piece& piece = b.segmentation.pieces[b.piece];
     PieceEvaluations along{candidates_along(piece, own.normal, own_index, settings.candidates), {}};
     along.evaluations = evaluate_all(piece, along.candidates, settings.objectives, context);
-    if (is_ranked_by_reach(piece, settings)) {
+    if (is_ranked_by_access(piece, settings)) {
         std::vector<double> offsets;
         for (const Candidate& c : along.candidates) offsets.push_back(c.plane.offset);
-        const std::vector<CutReach> reach = cut_reach(piece, own.normal, offsets, settings.objectives.tilt_deg);
-        for (std::size_t i = 0; i < reach.size(); ++i) {
-            if (along.evaluations[i]) along.evaluations[i]->reach = reach[i];
+        const std::vector<CutAccess> access = cut_access(piece, own.normal, offsets, settings.objectives.tilt_deg);
+        for (std::size_t i = 0; i < access.size(); ++i) {
+            if (along.evaluations[i]) along.evaluations[i]->access = access[i];
         }
     }
     const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, cache);
@@ -74,7 +74,7 @@ std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const Se
 std::optional<OpenedSurface> opened_surface(const Before& b, const Ranked& chosen, const SearchSettings& settings,
                                             EvaluationCache& cache) {
     const Piece& piece = b.segmentation.pieces[b.piece];
-    if (!is_ranked_by_reach(piece, settings)) return std::nullopt;
+    if (!is_ranked_by_access(piece, settings)) return std::nullopt;
     OpenedSurface opened;
     opened.piece_mm2 = piece.samples->judged().area_mm2();
     opened.scan_mm2 = scan_area_mm2(piece);
@@ -84,7 +84,7 @@ std::optional<OpenedSurface> opened_surface(const Before& b, const Ranked& chose
         opened.after_mm2 -= other.unreachable_mm2;
     }
     opened.best_other_after_mm2 = std::numeric_limits<double>::infinity();
-    const ReachEvaluations& swept = cache.reach(piece);
+    const AccessEvaluations& swept = cache.access(piece);
     for (std::size_t n = 0; n < swept.normals.size(); ++n) {
         if (swept.unreachable_mm2[n].empty() || static_cast<int>(n) == chosen.normal_index) continue;
         ++opened.other_normals;
@@ -130,7 +130,7 @@ Explanation explain_by(const Before& b, const Cut& cut, const SearchSettings& se
     e.cut = cut;
     e.objectives = settings.objectives;
     e.chosen = cut.chosen;
-    e.most_judged = most_judged_planes(settings);
+    e.max_judged = max_judged_planes(settings);
     e.ranked =
         rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index, too_large_for);
     e.listed = without_neighbours(e.ranked, b.segmentation.pieces[b.piece], settings.candidates, listed_planes);

@@ -20,7 +20,7 @@ struct OpenedSurface {
     double scan_mm2 = 0;    // of the scan, what is ignored left out
     double before_mm2 = 0;  // out of reach of the piece
     double after_mm2 = 0;   // out of reach of its two sides
-    // The planes of all normals but the chosen one's, as the sweep judges them (segment/access/reach_sweep.h).
+    // The planes of all normals but the chosen one's, as the sweep judges them (segment/access/access_sweep.h).
     std::size_t other_normals = 0;
     std::size_t other_planes = 0;
     double best_other_after_mm2 = 0;
@@ -40,7 +40,7 @@ struct Explanation {
     std::vector<Ranked>
         along_own_normal;  // without a place among the normals: planes along the normal of the chosen one, by offset
     std::optional<OpenedSurface> opened;  // nothing where surface out of reach has no weight
-    std::size_t most_judged = 0;          // planes; 0 as well then
+    std::size_t max_judged = 0;           // planes; 0 as well then
     // The best of the others by its total; null if there is none. And how many of them cost less than the chosen one.
     const Ranked* best_other() const;
     std::size_t cheaper() const;

@@ -114,7 +114,7 @@ void add_joints(OpenProject& open, const ExportRequest& request, std::vector<Exp
     const Setups* setups = open.setups();
     const JointSettings settings = joint_settings(setups != nullptr ? &setups->cell() : nullptr);
     const std::vector<PieceJoint> joints = request.holes ? piece_joints(segmentation.pieces, settings, context)
-                                                         : contacts_of(segmentation.pieces, settings.least_mm2);
+                                                         : contacts_of(segmentation.pieces, settings.min_mm2);
     std::vector<std::vector<AssemblyKey>> keys(segmentation.pieces.size());
     if (is_animated(request)) {
         keys = assembly_keys(assembly_of(segmentation, joints, context), segmentation.pieces.size());
@@ -140,9 +140,9 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
         if (request.piece && pieces[i].name != *request.piece) continue;
         ExportedPiece row{exported(pieces[i], i, open.project()), {}, {}};
         if (setups != nullptr) {
-            const Carving& carving = setups->held(pieces[i]);
-            row.piece.pose = carving.setup().piece_in_setup;
-            row.piece.fits = carving.fits();
+            const PieceSetup& piece_setup = setups->held(pieces[i]);
+            row.piece.pose = piece_setup.setup().piece_in_setup;
+            row.piece.fits = piece_setup.fits();
         }
         rows.push_back(std::move(row));
     }
@@ -179,7 +179,7 @@ void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request
     const StageTimer stage(context, "pieces simplified");
     SimplifyOptions options;
     options.tolerance = request.simplify_mm;
-    options.most_faces = request.max_faces;
+    options.max_faces = request.max_faces;
     std::size_t points = 0;
     for (const ExportedPiece& row : rows) points += row.piece.mesh->points.size();
     SharedProgress shared(context, "points removed", points);

@@ -7,7 +7,7 @@
 
 #include "app/engine/open_project.h"
 #include "app/engine/planes_by_setups.h"
-#include "app/engine/verdict.h"
+#include "app/engine/review_cuts.h"
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/timings.h"
@@ -30,36 +30,36 @@ bool is_decided(const Project& project, const Segmentation& segmentation, const 
 }
 
 // What needs no trial; nothing: other planes can be tried.
-std::optional<VerdictOutcome> settled(const Project& project, const Segmentation& segmentation, const Cut& cut) {
-    if (!is_last_of_its_pieces(segmentation.cuts, cut.number)) return VerdictOutcome::carries_cut;
-    if (is_decided(project, segmentation, cut)) return VerdictOutcome::decided;
+std::optional<ReviewOutcome> settled(const Project& project, const Segmentation& segmentation, const Cut& cut) {
+    if (!is_last_of_its_pieces(segmentation.cuts, cut.number)) return ReviewOutcome::carries_cut;
+    if (is_decided(project, segmentation, cut)) return ReviewOutcome::decided;
     return std::nullopt;
 }
 
 }  // namespace
 
-bool OpenProject::asks_for_verdict() {
-    const bool is_open = project_.verdict && !project_.verdict->is_done;
+bool OpenProject::asks_for_review() {
+    const bool is_open = project_.review && !project_.review->is_done;
     const SearchSettings& settings = project_.settings;
     if (settings.objectives.weights.unreachable <= 0 && !settings.stop.max_unreachable) return false;
     if (setups() == nullptr) return false;
-    return is_open || (project_.stage == Stage::cut && !project_.verdict);
+    return is_open || (project_.stage == Stage::cut && !project_.review);
 }
 
 // Other weights or rules: the search goes on with them, and its cuts are judged again.
-void OpenProject::drop_unfinished_verdict() {
-    if (is_being_judged()) project_.verdict.reset();
+void OpenProject::drop_unfinished_review() {
+    if (is_being_judged()) project_.review.reset();
 }
 
 std::optional<SearchEnd> OpenProject::judge_setups(const Context& context,
                                                    const std::function<void(const Segmentation&)>& on_round,
                                                    const std::optional<TimeLimit>& time_limit) {
-    if (!asks_for_verdict()) return std::nullopt;
-    if (!project_.verdict) {
-        project_.verdict.emplace();
+    if (!asks_for_review()) return std::nullopt;
+    if (!project_.review) {
+        project_.review.emplace();
         save();
     }
-    if (!project_.verdict->are_cuts_asked) judge_cuts(context);
+    if (!project_.review->are_cuts_asked) judge_cuts(context);
     std::optional<SearchEnd> end = cut_by_setups(context, on_round, time_limit);
     if (end && end->is_out_of_time()) {
         end_ = end;
@@ -68,7 +68,7 @@ std::optional<SearchEnd> OpenProject::judge_setups(const Context& context,
     setups()->keep_only(segmentation().pieces);
     if (project_.stage == Stage::cutting) write_current_pieces();
     project_.stage = Stage::cut;
-    project_.verdict->is_done = true;
+    project_.review->is_done = true;
     save();
     return end;
 }
@@ -78,8 +78,8 @@ void OpenProject::judge_cuts(const Context& context) {
         const StageTimer stage(context, "setups judge the cuts");
         std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
         const auto is_known = [&](std::int32_t number) {
-            const std::vector<CutVerdict>& known = project_.verdict->cuts;
-            return std::any_of(known.begin(), known.end(), [&](const CutVerdict& v) { return v.cut == number; });
+            const std::vector<CutReview>& known = project_.review->cuts;
+            return std::any_of(known.begin(), known.end(), [&](const CutReview& v) { return v.cut == number; });
         };
         std::erase_if(numbers, is_known);
         std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
@@ -88,7 +88,7 @@ void OpenProject::judge_cuts(const Context& context) {
             divided.erase(number);
         }
     }
-    project_.verdict->are_cuts_asked = true;
+    project_.review->are_cuts_asked = true;
     save();
 }
 
@@ -107,8 +107,8 @@ PieceChecks OpenProject::checks_by_setups(const SearchSettings& settings, const 
 // reach than it knew, or a cut that is replaced made them other pieces.
 BeamProgress OpenProject::after_the_search(const Segmentation& segmentation) {
     std::int32_t first_replaced = std::numeric_limits<std::int32_t>::max();
-    for (const CutVerdict& cut : project_.verdict->cuts) {
-        if (cut.outcome == VerdictOutcome::replaced) first_replaced = std::min(first_replaced, cut.cut);
+    for (const CutReview& cut : project_.review->cuts) {
+        if (cut.outcome == ReviewOutcome::replaced) first_replaced = std::min(first_replaced, cut.cut);
     }
     BeamState state;
     state.from = segmentation.cuts.size();
@@ -178,23 +178,23 @@ void OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Pi
     const Cut& cut = now.cuts[static_cast<std::size_t>(number - 1)];
     const auto piece = divided.find(number);
     if (piece == divided.end()) {
-        const CarvedSurface surface = carved_surface(now, number, *setups());
-        const VerdictOutcome outcome = settled(project_, now, cut).value_or(VerdictOutcome::kept);
-        project_.verdict->cuts.push_back({number, cut.piece, outcome, 0, surface, surface});
+        const MilledSurface surface = milled_surface(now, number, *setups());
+        const ReviewOutcome outcome = settled(project_, now, cut).value_or(ReviewOutcome::kept);
+        project_.review->cuts.push_back({number, cut.piece, outcome, 0, surface, surface});
         return save();
     }
     Piece parted = piece->second;
     parted.name = cut.piece;
     RecutTrial trial = try_other_planes(now, parted, number, project_.settings, *setups(), context);
-    if (trial.better) return replace_cut(*trial.better, std::move(trial.verdict));
+    if (trial.better) return replace_cut(*trial.better, std::move(trial.review));
     setups()->keep_only(now.pieces);
-    project_.verdict->cuts.push_back(std::move(trial.verdict));
+    project_.review->cuts.push_back(std::move(trial.review));
     save();
 }
 
 // The stage is `cutting` before a file is removed, so that nothing that is on disk belongs to other cuts. Why the
 // search ended stays: by it and by the verdict that is not done the project is known to go on here.
-void OpenProject::replace_cut(const Segmentation& alone, CutVerdict verdict) {
+void OpenProject::replace_cut(const Segmentation& alone, CutReview review) {
     project_.stage = Stage::cutting;
     project_.jobs.clear();
     save_project(folder_, project_);
@@ -204,7 +204,7 @@ void OpenProject::replace_cut(const Segmentation& alone, CutVerdict verdict) {
     decide(project_.history, Replacement{alone.cuts.front()});
     record(project_, *segmentation_);
     if (!project_.do_rules_hold()) project_.warnings.push_back(early_end(project_.ended_because));
-    project_.verdict->cuts.push_back(std::move(verdict));
+    project_.review->cuts.push_back(std::move(review));
     save();
 }
 

@@ -130,11 +130,11 @@ PieceChecks OpenProject::checks() {
     checks.blocks_needed = [blocks = usable_blocks(setups->planned())](Vec3 size) {
         return blocks_needed(blocks, size);
     };
-    checks.is_carvable = [setups, timings = context_.timings](const Piece& piece) {
+    checks.is_machinable = [setups, timings = context_.timings](const Piece& piece) {
         const StageTimer stage(timings, "setups of pieces that fit");
-        return setups->is_carvable(piece);
+        return setups->is_machinable(piece);
     };
-    checks.least_gain_mm2 = setups->least_gain_mm2();
+    checks.min_gain_mm2 = setups->min_gain_mm2();
     checks.low_blocks_needed = [blocks = low_usable_blocks(setups->planned())](Vec3 size) {
         return blocks_needed(blocks, size);
     };
@@ -198,7 +198,7 @@ void OpenProject::adopt(const Segmentation& segmentation) {
 
 void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
     take_over(segmentation, std::move(beam));
-    project_.verdict.reset();
+    project_.review.reset();
     save();
 }
 
@@ -220,7 +220,7 @@ bool OpenProject::decide_weights(const Weights& weights) {
     decide(project_.history, WeightsChange{weights});
     set_weights(weights);
     project_.beam.reset();
-    drop_unfinished_verdict();
+    drop_unfinished_review();
     save();
     return true;
 }
@@ -305,13 +305,13 @@ void OpenProject::commit_first(std::size_t committed) {
     project_.history.committed = committed;
     set_weights(committed_weights(project_.history));
     project_.beam.reset();
-    drop_unfinished_verdict();
+    drop_unfinished_review();
     std::vector<Cut> cuts = committed_cuts(project_.history);
     std::vector<Discard> discards = committed_discards(project_.history);
     if (cuts != project_.cuts || discards != project_.discards) {
         project_.cuts = std::move(cuts);
         project_.discards = std::move(discards);
-        project_.verdict.reset();
+        project_.review.reset();
         segmentation_.reset();
         record(project_, segmentation());
     }
@@ -331,7 +331,7 @@ void OpenProject::set_settings(const SearchSettings& settings) {
     if (settings.objectives != project_.settings.objectives) cache_.reset();
     project_.settings = settings;
     project_.beam.reset();
-    drop_unfinished_verdict();
+    drop_unfinished_review();
     // Made again with samples, or without: as a project that is opened with these settings.
     if (!needs_same) segmentation_.reset();
     save();
@@ -379,7 +379,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     const bool is_out_of_time = end_ && end_->is_out_of_time();
     if (is_out_of_time) record_end(*end_);
     if (!end_ || is_out_of_time) write_current_pieces();
-    PreparedProject prepared{folder_, {}, setups()->cell(), most_unreachable(project_, setups()->cell()), {}};
+    PreparedProject prepared{folder_, {}, setups()->cell(), max_unreachable(project_, setups()->cell()), {}};
     static_cast<void>(segmentation());
     release_scan();
     prepared.joints = project_joints(segmentation(), &prepared.cell, context);

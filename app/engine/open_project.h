@@ -23,7 +23,7 @@
 
 namespace qchopper {
 
-// A finished project, and how each of its pieces is carved.
+// A finished project, and how each of its pieces is milled.
 struct PreparedProject {
     std::filesystem::path folder;
     Project project;
@@ -65,7 +65,7 @@ class OpenProject {
     const std::shared_ptr<const StressedModel>& stress();
     EvaluationCache& cache();
 
-    // How pieces are carved in the project's cell; nullptr without a cell. Throws InputError (config) for a cell file
+    // How pieces are milled in the project's cell; nullptr without a cell. Throws InputError (config) for a cell file
     // that is wrong.
     Setups* setups();
     // Throws InputError (use) for a project without a cell.
@@ -122,17 +122,17 @@ class OpenProject {
                      const Context& context, const std::optional<TimeLimit>& time_limit);
 
     // After a search in a project with a cell, setups judge what it made. With the weight `unreachable` a cut of which
-    // the pieces can be carved better along another plane is replaced (verdict.h); every cut is asked once, and saved
-    // before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of its job
-    // leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h); `on_round` is
-    // called with the segmentation after each such decision. project().end_reason then says of the final setups whether
-    // the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it. Does nothing
-    // where that is done already, or the search has not ended. Throws Cancelled.
+    // the pieces can be milled better along another plane is replaced (review_cuts.h); every cut is asked once, and
+    // saved before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of
+    // its job leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h);
+    // `on_round` is called with the segmentation after each such decision. project().end_reason then says of the final
+    // setups whether the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it.
+    // Does nothing where that is done already, or the search has not ended. Throws Cancelled.
     std::optional<SearchEnd> judge_setups(const Context& context,
                                           const std::function<void(const Segmentation&)>& on_round = {},
                                           const std::optional<TimeLimit>& time_limit = std::nullopt);
     // Whether a search has ended that setups are still judging: it does not go on before that is done.
-    bool is_being_judged() const { return project_.verdict && !project_.verdict->is_done; }
+    bool is_being_judged() const { return project_.review && !project_.review->is_done; }
 
     // Whether jobs are written with robot programs from now on. This is no decision: undo does not take it back.
     void set_has_programs(bool has_programs);
@@ -153,8 +153,8 @@ class OpenProject {
     void take_over(const Segmentation& segmentation, std::optional<BeamState> beam);
     // The pieces are made again, with samples or without, if that follows from them.
     void set_weights(const Weights& weights);
-    bool asks_for_verdict();
-    void drop_unfinished_verdict();
+    bool asks_for_review();
+    void drop_unfinished_review();
     std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
     void judge_cuts(const Context& context);
     std::optional<SearchEnd> cut_by_setups(const Context& context,
@@ -163,7 +163,7 @@ class OpenProject {
     BeamProgress after_the_search(const Segmentation& segmentation);
     PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
     void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
-    void replace_cut(const Segmentation& alone, CutVerdict verdict);
+    void replace_cut(const Segmentation& alone, CutReview review);
     void record_end(const SearchEnd& end);
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
     void commit_first(std::size_t committed);

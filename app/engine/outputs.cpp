@@ -72,13 +72,13 @@ void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, Se
     write_file(folder / "pictures" / "segmentation.png", render_png(scene, {}, context));
     scene.place(shifts);
     write_file(folder / "pictures" / "exploded.png", render_png(scene, {}, context));
-    std::vector<CarvedPiece> carved;
+    std::vector<MilledPiece> milled;
     for (const Piece& piece : pieces) {
-        const Carving& carving = setups.held(piece);
-        carved.push_back({carving.choice.states, carving.setup().base});
+        const PieceSetup& piece_setup = setups.held(piece);
+        milled.push_back({piece_setup.choice.states, piece_setup.setup().base});
     }
     write_file(folder / "pictures" / "unreachable.png",
-               draw_unreachable(pieces, shifts, carved, setups.counts_narrow(), context));
+               draw_unreachable(pieces, shifts, milled, setups.counts_narrow(), context));
 }
 
 void remove_outputs(const fs::path& folder, Project& project) {

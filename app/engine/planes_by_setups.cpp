@@ -7,7 +7,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "app/engine/verdict.h"
+#include "app/engine/review_cuts.h"
 #include "segment/cut/nudge.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/rank_piece.h"
@@ -78,11 +78,11 @@ std::vector<Piece> pieces_made(const Segmentation& segmentation, std::size_t pie
 TriedPlane judged(const Ranked& plane, const std::vector<Piece>& pieces, double limit, Setups& setups) {
     TriedPlane tried{plane};
     for (const Piece& part : pieces) {
-        const Carving& carving = setups.of(part);
-        const SurfaceReach& reach = carving.setup().reach;
-        tried.fits = tried.fits && carving.envelope.fits() && setups.fits(part);
-        tried.unreachable_mm2 += reach.unreachable_mm2();
-        if (reach.unreachable_share() > limit) tried.above_limit_mm2 += reach.unreachable_mm2();
+        const PieceSetup& piece_setup = setups.of(part);
+        const SurfaceAccess& access = piece_setup.setup().access;
+        tried.fits = tried.fits && piece_setup.stock_fit.fits() && setups.fits(part);
+        tried.unreachable_mm2 += access.unreachable_mm2();
+        if (access.unreachable_share() > limit) tried.above_limit_mm2 += access.unreachable_mm2();
     }
     return tried;
 }

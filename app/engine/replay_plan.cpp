@@ -131,7 +131,7 @@ class Replay {
                            [](const HalfSpace& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
             if (!is_there || !is_inside(*piece.mesh, inside)) continue;
             const double off = share_off(volume_mm3(*piece.mesh), planned.volume_mm3);
-            if (off <= fit_.most_volume_off) return p;
+            if (off <= fit_.max_volume_off) return p;
             why = "piece " + piece.name + " lies there, but its volume differs by " + percent(off);
             return std::nullopt;
         }
@@ -162,7 +162,7 @@ class Replay {
         double largest = 0;
         for (std::size_t i = 0; i < made.size(); ++i) {
             const double off = share_off(made[i], planned.makes_mm3[i]);
-            if (off > fit_.most_volume_off) return "a piece that it makes differs in volume by " + percent(off);
+            if (off > fit_.max_volume_off) return "a piece that it makes differs in volume by " + percent(off);
             largest = std::max(largest, relative(made[i], planned.makes_mm3[i]));
         }
         result_.largest_volume_off = std::max(result_.largest_volume_off, largest);
@@ -189,12 +189,12 @@ std::string misfit(const Plan& plan, const ScanSource& source, const TriangleMes
     const double diagonal = norm(s.box.size());
     const Box box = bounds(scan);
     const double off = std::max(norm(box.min + source.centre - s.box.min), norm(box.max + source.centre - s.box.max));
-    if (off > fit.most_box_off * diagonal) {
+    if (off > fit.max_box_off * diagonal) {
         return "the boxes of the two scans are " + in_mm(off) +
                " apart: this is another specimen, another unit, or another frame";
     }
     const double volume_off = relative(source.volume_mm3, s.volume_mm3);
-    if (volume_off > fit.most_volume_off) {
+    if (volume_off > fit.max_volume_off) {
         return "the volumes of the two scans differ by " + percent(volume_off);
     }
     return {};

@@ -17,8 +17,8 @@
 namespace qchopper {
 
 struct PlanFit {
-    double most_volume_off = 0.05;  // largest difference of a piece's share of the whole, relative
-    double most_box_off = 0.02;     // largest distance of either corner of the boxes, relative to the diagonal
+    double max_volume_off = 0.05;  // largest difference of a piece's share of the whole, relative
+    double max_box_off = 0.02;     // largest distance of either corner of the boxes, relative to the diagonal
     bool operator==(const PlanFit&) const = default;
 };
 

@@ -10,7 +10,7 @@
 #include "base/shell_word.h"
 #include "base/timings.h"
 #include "cam/cell/allowed_tools.h"
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 
 namespace qchopper {
 namespace {
@@ -85,7 +85,7 @@ SetupAnswer setup_project(const std::filesystem::path& folder, const SetupReques
     answer.folder = folder;
     answer.cell = project.setups()->cell();
     answer.ignored = project.project().ignored;
-    answer.max_unreachable = most_unreachable(project.project(), answer.cell);
+    answer.max_unreachable = max_unreachable(project.project(), answer.cell);
     return answer;
 }
 

@@ -1,4 +1,4 @@
-// Shows how the pieces of a project are laid and carved, and lets the operator choose another base or fewer directions.
+// Shows how the pieces of a project are laid and milled, and lets the operator choose another base or fewer directions.
 //
 // A choice is a decision of the project: it is saved before the job of the piece is written again, and undo takes it
 // back (tests/app/cli/setup_test.cpp).
@@ -28,7 +28,7 @@ struct SetupRequest {
 struct PieceSetups {
     std::string piece;
     std::optional<SetupOrder> order;  // what the operator chose
-    Carving carving;
+    PieceSetup piece_setup;
 };
 
 struct SetupAnswer {

@@ -13,8 +13,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double tolerance = 1e-3;   // mm, and of the axis; a manifest holds doubles
-constexpr double most_shifted = 10;  // mm; farther away it is another hole: dowels stand at least 12 mm apart
+constexpr double tolerance = 1e-3;  // mm, and of the axis; a manifest holds doubles
+constexpr double max_shifted = 10;  // mm; farther away it is another hole: dowels stand at least 12 mm apart
 
 // A hole with its joint.
 struct JointHole {
@@ -44,7 +44,7 @@ class HoleComparison {
         : piece_("piece " + piece), job_(listed(job)), project_(listed(project)) {
         compare_joints(job, project);
         pair_within(tolerance);
-        pair_within(most_shifted);
+        pair_within(max_shifted);
         for (const JointHole& due : project_) {
             if (!due.is_paired)
                 add("other_hole", "hole " + std::to_string(due.hole.number) + " of the project, of " + at_joint(due) +

@@ -13,7 +13,7 @@
 #include "cam/cell/allowed_tools.h"
 #include "cam/job/left_out.h"
 #include "cam/setup/block_placement.h"
-#include "cam/setup/drill_direction.h"
+#include "cam/setup/drill_orientation.h"
 #include "segment/io/read_mesh.h"
 #include "sim/program/chunk_summary.h"
 #include "sim/program/krl_line.h"
@@ -30,7 +30,7 @@ constexpr double agreement = 1e-6;  // mm: of what the manifest says of a chunk 
 constexpr const char* manifest = "manifest.json";
 
 void add(JobProof& proof, const std::string& kind, const std::string& file, std::size_t line, const std::string& text) {
-    if (proof.findings.size() < most_listed_findings) {
+    if (proof.findings.size() < max_listed_findings) {
         proof.findings.push_back({kind, file, line, text});
     } else {
         ++proof.findings_left_out;
@@ -82,7 +82,7 @@ void compare_chunks(const ProofInput& input, const ParsedProgram& program, JobPr
         if (input.is_stated && !is_same(stated[i], read[i])) {
             add(proof, "other_chunks", read[i].file, 0, "the manifest describes another chunk in its place");
         }
-        proof.chunks.push_back({read[i].file, stated[i].tool, stated[i].direction, read[i].moves, read[i].length,
+        proof.chunks.push_back({read[i].file, stated[i].tool, stated[i].orientation, read[i].moves, read[i].length,
                                 read[i].box, read[i].first, read[i].last});
     }
 }
@@ -113,16 +113,16 @@ void check_scallop(const ProofInput& input, JobProof& proof) {
 ReplayScene scene_of(const ProofInput& input) {
     ReplayScene scene;
     scene.cell = &input.cell;
-    const Setup setup = with_drill_directions(input.setup, input.program.drilling);
-    const std::size_t own = input.setup.reach.directions.size();
-    for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
-        const Vec3 out = setup.tool_axis(d);
+    const Setup setup = with_drill_orientations(input.setup, input.program.drilling);
+    const std::size_t own = input.setup.access.orientations.size();
+    for (std::size_t d = 0; d < setup.access.orientations.size(); ++d) {
+        const Vec3 tool_axis = setup.tool_axis(d);
         const Pose frame = d < own ? input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)]
                                    : setup_in_cell(input.cell, setup.spoil, setup.placement, d);
-        scene.directions.push_back({out, setup.placement.table_angle(d), frame});
+        scene.orientations.push_back({tool_axis, setup.placement.table_angle(d), frame});
     }
     for (const JobChunk& chunk : input.program.chunks) {
-        scene.chunks.push_back({without_ending(chunk.file), chunk.tool, chunk.direction});
+        scene.chunks.push_back({without_ending(chunk.file), chunk.tool, chunk.orientation});
     }
     scene.block = setup.block_box();
     scene.spoil = setup.spoil;
@@ -141,13 +141,13 @@ ReplayScene scene_of(const ProofInput& input) {
 }
 
 // What the part before left; nothing for the first. Throws InputError (mesh).
-std::optional<CarvedStock> stock_before(const ProofInput& input) {
+std::optional<StockRecord> stock_before(const ProofInput& input) {
     if (input.program.part.number == 1) return std::nullopt;
     if (input.stock == nullptr) throw InputError(InputFault::mesh, "what the part before leaves is not known");
     return read_stock(*input.stock, "stock.bin");
 }
 
-// Of what must be carved and of what is not: none before the last part, when the piece is not there yet.
+// Of what must be milled and of what is not: none before the last part, when the piece is not there yet.
 std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool has_order) {
     const double percent = 100;
     const LeftoverFigures& left = report.leftover;
@@ -198,19 +198,19 @@ std::vector<ProofFigure> figures_of(const ReplayReport& report, const ReplayScen
         append({{"moves_left_out_mm", "cuts left out, which no hold of the arm carries",
                  program.moves_left_out.length_mm, "mm", 0}});
     }
-    append(hole_figures(report.carving.holes));
+    append(hole_figures(report.milling.holes));
     return figures;
 }
 
 // That the manifest says of each ball-ended tool that may be used why it is not, where it is not.
 void check_left_out(const ReplayScene& scene, const JobProgram& program, JobProof& proof) {
-    const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
-    const auto is_stated = [&](std::uint16_t tool, std::size_t direction) {
+    const std::vector<CuttingTool>& tools = scene.cell->machine->tools;
+    const auto is_stated = [&](std::uint16_t tool, std::size_t orientation) {
         return std::any_of(program.left_out.begin(), program.left_out.end(), [&](const ToolLeftOut& stated) {
-            return stated.tool.value_or(tool) == tool && stated.direction.value_or(direction) == direction;
+            return stated.tool.value_or(tool) == tool && stated.orientation.value_or(orientation) == orientation;
         });
     };
-    for (std::size_t d = 0; d < carving_directions(scene); ++d) {
+    for (std::size_t d = 0; d < milling_orientations(scene); ++d) {
         const std::vector<std::size_t> used = tools_along(scene, d);
         for (const std::size_t tool : allowed_tools(scene)) {
             const std::uint16_t number = tools[tool].number;
@@ -265,7 +265,7 @@ JobProof prove(const ProofInput& input, const Context& context) {
     options.cell = input.replay_cell;
     try {
         ReplayScene scene = scene_of(input);
-        const std::optional<CarvedStock> before = stock_before(input);
+        const std::optional<StockRecord> before = stock_before(input);
         if (before) scene.before = &*before;
         const ReplayReport report = replay(*program, scene, options, context);
         proof.figures = figures_of(report, scene, input.program, options.cell);

@@ -1,4 +1,4 @@
-// The proof that the program of a job carves its piece: the texts are read back and replayed in a block of foam.
+// The proof that the program of a job mills its piece: the texts are read back and replayed in a block of foam.
 //
 // Nothing but what stands in the job file and in the cell file is used; reading and replay are those of sim, which
 // knows neither the toolpath nor the post (tests/architecture/includes.py).
@@ -34,7 +34,7 @@ struct ProofInput {
 struct JobProof {
     std::vector<JobChunk> chunks;  // as read back; none if the texts cannot be read
     std::vector<ProofFigure> figures;
-    std::vector<VerdictFinding> findings;  // at most most_listed_findings
+    std::vector<VerdictFinding> findings;  // at most max_listed_findings
     std::size_t findings_left_out = 0;
     std::vector<std::string> notes;  // JobVerdict::notes
     std::vector<float> deviation;    // mm, per triangle: positive where foam stays, negative where it is cut into

@@ -28,9 +28,9 @@ Json from_figure(const ProofFigure& figure) {
 }
 
 ProofFigure to_figure(const Json& json) {
-    constexpr int most_decimals = 9;
+    constexpr int max_decimals = 9;
     return {json_values::text(json, "key"), json_values::text(json, "name"), real(json, "value"),
-            json_values::text(json, "unit"), static_cast<int>(whole_up_to(json, "decimals", most_decimals))};
+            json_values::text(json, "unit"), static_cast<int>(whole_up_to(json, "decimals", max_decimals))};
 }
 
 Json from_finding(const VerdictFinding& finding) {
@@ -72,7 +72,7 @@ std::string describe(const VerdictFinding& finding) {
 }
 
 std::string to_json(const JobVerdict& verdict) {
-    assert(verdict.findings.size() <= most_listed_findings);
+    assert(verdict.findings.size() <= max_listed_findings);
     Json figures = Json::array();
     for (const ProofFigure& figure : verdict.figures) figures.push_back(from_figure(figure));
     Json findings = Json::array();

@@ -43,12 +43,12 @@ struct JobVerdict {
     bool operator==(const JobVerdict&) const = default;
 };
 
-constexpr std::size_t most_listed_findings = 100;
+constexpr std::size_t max_listed_findings = 100;
 
 // "qc_1_002.src line 17: the tip moves at 150 mm/s while it cuts, more than 120".
 std::string describe(const VerdictFinding& finding);
 
-// JSON text. Precondition: all numbers are finite, at most most_listed_findings findings.
+// JSON text. Precondition: all numbers are finite, at most max_listed_findings findings.
 std::string to_json(const JobVerdict& verdict);
 // The inverse. Throws InputError (mesh) naming `source`.
 JobVerdict job_verdict_from_json(std::string_view text, const std::string& source);

@@ -63,7 +63,7 @@ void check_ordered(const ReadJob& job, const JobOrder& order) {
         {!is_of_project, " is a job of another project, or of other cuts"},
         {job.cell_id != order.cell.id, " is made for cell " + std::to_string(job.cell_id) + ", and the cell here is " +
                                            std::to_string(order.cell.id) + " (" + order.cell.name + ")"},
-        {!job.envelope.fits() || !job.holds_poses, " states that its piece does not fit the cell"},
+        {!job.stock_fit.fits() || !job.holds_poses, " states that its piece does not fit the cell"},
         {job.file_sha256 != order.written.sha256,
          " is not the file that prepare wrote: its SHA-256 is not the one in project.json"}};
     for (const auto& [is_wrong, what] : faults) {

@@ -42,7 +42,7 @@ bool PieceReport::is_proven() const {
            std::all_of(verdicts.begin(), verdicts.end(), [](const JobVerdict& v) { return v.is_positive; });
 }
 
-double most_unreachable(const Project& project, const Cell& cell) {
+double max_unreachable(const Project& project, const Cell& cell) {
     if (project.settings.stop.max_unreachable) return *project.settings.stop.max_unreachable;
     return cell.machine ? cell.machine->max_unreachable : 1;
 }
@@ -55,11 +55,11 @@ struct MadeJob {
 };
 
 // Empty for a piece of which no more is out of reach than may be.
-std::vector<ReachAdvice> advice_for(const fs::path& folder, const Project& project, const Piece& piece,
-                                    const SurfaceReach& reach, const Cell& cell) {
-    if (reach.unreachable_share() <= most_unreachable(project, cell)) return {};
+std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& project, const Piece& piece,
+                                     const SurfaceAccess& access, const Cell& cell) {
+    if (access.unreachable_share() <= max_unreachable(project, cell)) return {};
     AdviceInput input;
-    input.reach = reach;
+    input.access = access;
     input.inside_share = inside_share(piece);
     input.tilt_deg = max_tilt_deg(cell);
     input.max_directions = SetupOptions{}.max_directions;
@@ -69,7 +69,7 @@ std::vector<ReachAdvice> advice_for(const fs::path& folder, const Project& proje
     const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
     input.segment_command = "qchopper segment " + of_piece + " --step";
     input.setup_command = "qchopper setup " + of_piece;
-    return reach_advice(input, cell);
+    return access_advice(input, cell);
 }
 
 // What all jobs of a run have in common.
@@ -90,7 +90,7 @@ JobOrders orders_of(const fs::path& folder, const Project& project, const Segmen
             program_version};
 }
 
-JobInput job_input(const JobOrders& orders, std::size_t index, const Carving& carving) {
+JobInput job_input(const JobOrders& orders, std::size_t index, const PieceSetup& piece_setup) {
     JobInput input;
     input.piece = orders.segmentation.pieces[index];
     input.piece_no = static_cast<std::uint16_t>(index + 1);
@@ -98,13 +98,13 @@ JobInput job_input(const JobOrders& orders, std::size_t index, const Carving& ca
     input.program_version = orders.program_version;
     input.project_id = project_id(orders.project);
     input.scan_sha256 = orders.project.scan.sha256;
-    input.setup = carving.setup();
+    input.setup = piece_setup.setup();
     input.cell = with_tools(orders.cell, input.setup.tools);
-    input.envelope = carving.envelope;
-    input.work_envelope = carving.work_envelope;
-    input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
-    input.states = carving.choice.states;
-    input.max_unreachable = most_unreachable(orders.project, orders.cell);
+    input.stock_fit = piece_setup.stock_fit;
+    input.machine_reachability = piece_setup.machine_reachability;
+    input.alternatives.assign(piece_setup.choice.setups.begin() + 1, piece_setup.choice.setups.end());
+    input.states = piece_setup.choice.states;
+    input.max_unreachable = max_unreachable(orders.project, orders.cell);
     input.warnings = orders.project.warnings;
     input.caps = caps_of(orders.segmentation.pieces, index, orders.joints, input.setup, input.cell);
     return input;
@@ -155,7 +155,7 @@ void write_one(const JobInput& input, const JobProof* proof, const JobOrders& or
 }
 
 // Those that an earlier run made of the same, or new ones.
-PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const Carving& carving,
+PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const PieceSetup& piece_setup,
                           const Context& context) {
     std::string none_because = no_programs_for(orders.cell);
     if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
@@ -164,23 +164,23 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
     const ProgramSource source{input.piece,        input.setup,           envelope, input.piece_no, input.caps,
                                orders.cell_sha256, orders.program_version};
     if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
-    return make_programs(input.piece, carving, input.piece_no, orders.cell, input.caps, context);
+    return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context);
 }
 
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
-MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carving, const Context& context) {
+MadeJob make_job(const JobOrders& orders, std::size_t index, const PieceSetup& piece_setup, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
-    MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}}, {}};
-    made.report.carving.mesh.reset();
-    made.report.carving.choice.states.clear();
-    made.report.advice = advice_for(orders.folder, orders.project, piece, carving.setup().reach,
-                                    with_tools(orders.cell, carving.setup().tools));
-    if (!carving.fits()) {
+    MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), piece_setup, {}}, {}};
+    made.report.piece_setup.mesh.reset();
+    made.report.piece_setup.choice.states.clear();
+    made.report.advice = advice_for(orders.folder, orders.project, piece, piece_setup.setup().access,
+                                    with_tools(orders.cell, piece_setup.setup().tools));
+    if (!piece_setup.fits()) {
         remove_jobs(orders.folder, piece.name);
         return made;
     }
-    JobInput input = job_input(orders, index, carving);
-    const PiecePrograms programs = programs_of(orders, input, carving, context);
+    JobInput input = job_input(orders, index, piece_setup);
+    const PiecePrograms programs = programs_of(orders, input, piece_setup, context);
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
     input.caps = programs.caps;
@@ -263,8 +263,8 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     stage.next("work envelopes judged");
     setups.compute_held(segmentation.pieces, context);
     stage.next("jobs written");
-    std::vector<const Carving*> carvings;
-    for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
+    std::vector<const PieceSetup*> piece_setups;
+    for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.held(piece));
     std::vector<MadeJob> made(count);
     const Project ordered = project;  // what the threads read, while the records change
     const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);
@@ -274,7 +274,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     parallel_for(0, count, [&](std::size_t i) {
         context.check_cancelled();
         Timings timings;
-        made[i] = make_job(orders, i, *carvings[i], progress.of(i, segmentation.pieces[i].name, &timings));
+        made[i] = make_job(orders, i, *piece_setups[i], progress.of(i, segmentation.pieces[i].name, &timings));
         times[i] = timings.so_far();
         const std::lock_guard lock(recording);
         record_jobs(project, segmentation, i, made[i].written);

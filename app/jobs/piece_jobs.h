@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "app/jobs/access_advice.h"
 #include "app/jobs/job_verdict.h"
-#include "app/jobs/reach_advice.h"
 #include "app/jobs/setups.h"
 #include "app/store/project.h"
 #include "base/context.h"
@@ -21,16 +21,16 @@ namespace qchopper {
 
 // The share of a piece's surface that may stay out of reach: the operator's, or else the cell's. A cell without a
 // machine sets no limit: 1.
-double most_unreachable(const Project& project, const Cell& cell);
+double max_unreachable(const Project& project, const Cell& cell);
 
 // The result of prepare for one piece.
 struct PieceReport {
     std::string name;
     std::size_t faces = 0;
     double volume_mm3 = 0;
-    Carving carving;
+    PieceSetup piece_setup;
     std::filesystem::path job;              // empty: it does not fit the cell and has no job
-    std::vector<ReachAdvice> advice = {};   // of a piece of which more is out of reach than may be
+    std::vector<AccessAdvice> advice = {};  // of a piece of which more is out of reach than may be
     std::string no_program_because = {};    // empty: its jobs hold robot programs
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it

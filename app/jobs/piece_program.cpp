@@ -13,10 +13,10 @@
 #include "cam/cell/allowed_tools.h"
 #include "cam/job/job_caps.h"
 #include "cam/post/krl.h"
-#include "cam/program/hold_drilling.h"
 #include "cam/program/make_program.h"
+#include "cam/program/reachable_holes.h"
 #include "cam/setup/block_placement.h"
-#include "cam/setup/drill_direction.h"
+#include "cam/setup/drill_orientation.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/transform.h"
@@ -48,9 +48,9 @@ double wall_of(const JobHole& hole, const Cell& cell) {
     return wall;
 }
 
-MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell, const std::vector<DrawnCap>& caps,
-                   const ToolpathSettings& settings, const Context& context) {
-    const Setup& setup = carving.setup();
+MadePath make_path(const Piece& piece, const PieceSetup& piece_setup, const Cell& cell,
+                   const std::vector<DrawnCap>& caps, const ToolpathSettings& settings, const Context& context) {
+    const Setup& setup = piece_setup.setup();
     InProcessStock left(setup);
     MadePath made{make_toolpath(setup, *piece.mesh, cell, settings, context, &left), {}};
     std::vector<DrillHole> holes;
@@ -62,7 +62,7 @@ MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell,
     }
     if (holes.empty()) return made;
     made.drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, left);
-    hold_drilling(made.drilling, setup, carving.work_envelope, cell, context);
+    keep_reachable_holes(made.drilling, setup, piece_setup.machine_reachability, cell, context);
     return made;
 }
 
@@ -71,13 +71,13 @@ struct PostedProgram {
     MovesLeftOut left_out;
 };
 
-PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
-                   const Cell& cell, const Context& context) {
+PostedProgram post(const Toolpath& path, const Drilling& drilling, const PieceSetup& piece_setup,
+                   std::uint16_t piece_no, const Cell& cell, const Context& context) {
     Toolpath whole = path;
     const std::vector<Operation>& drilled = drilling.operations;
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
-    const Setup setup = with_drill_directions(carving.setup(), drilling.directions);
-    const Program program = make_program(whole, setup, carving.work_envelope, cell, context);
+    const Setup setup = with_drill_orientations(piece_setup.setup(), drilling.orientations);
+    const Program program = make_program(whole, setup, piece_setup.machine_reachability, cell, context);
     return {post_krl(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
 }
 
@@ -90,14 +90,14 @@ std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
 }
 
 // What refuses a program that drills this hole and does nothing else; empty: nothing.
-std::string refusal_alone(std::size_t number, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
-                          const Cell& cell, const Context& context) {
+std::string refusal_alone(std::size_t number, const Drilling& drilling, const PieceSetup& piece_setup,
+                          std::uint16_t piece_no, const Cell& cell, const Context& context) {
     Drilling alone = drilling;
     for (const std::size_t other : drilled_holes(drilling)) {
-        if (other != number) leave_to_hand(alone, other, "not asked", carving.setup());
+        if (other != number) leave_to_hand(alone, other, "not asked", piece_setup.setup());
     }
     try {
-        post({}, alone, carving, piece_no, cell, context);
+        post({}, alone, piece_setup, piece_no, cell, context);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -106,11 +106,11 @@ std::string refusal_alone(std::size_t number, const Drilling& drilling, const Ca
 
 // With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
 // where that does not help, without any.
-PostedProgram make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+PostedProgram make_parts(MadePath& made, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
                          const Context& context) {
-    const auto posted = [&] { return post(made.toolpath, made.drilling, carving, piece_no, cell, context); };
+    const auto posted = [&] { return post(made.toolpath, made.drilling, piece_setup, piece_no, cell, context); };
     const auto leave = [&](std::size_t number, const std::string& why) {
-        leave_to_hand(made.drilling, number, "the program cannot drill: " + why, carving.setup());
+        leave_to_hand(made.drilling, number, "the program cannot drill: " + why, piece_setup.setup());
     };
     while (!made.drilling.operations.empty()) {
         std::string why;
@@ -122,7 +122,7 @@ PostedProgram make_parts(MadePath& made, const Carving& carving, std::uint16_t p
         const std::vector<std::size_t> before = drilled_holes(made.drilling);
         const Drilling all = made.drilling;
         for (const std::size_t number : before) {
-            const std::string alone = refusal_alone(number, all, carving, piece_no, cell, context);
+            const std::string alone = refusal_alone(number, all, piece_setup, piece_no, cell, context);
             if (!alone.empty()) leave(number, alone);
         }
         if (drilled_holes(made.drilling).size() < before.size()) continue;
@@ -145,12 +145,12 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
     ProgramInput input;
     input.program.scallop_mm = settings.scallop;
     for (const UnusedTool& unused : made.toolpath.unused) {
-        ToolLeftOut left_out{{}, unused.direction, unused.because};
+        ToolLeftOut left_out{{}, unused.orientation, unused.because};
         if (unused.tool) left_out.tool = machine.tools[*unused.tool].number;
         input.program.left_out.push_back(std::move(left_out));
     }
     input.program.moves_left_out = posted.left_out;
-    input.program.drilling = made.drilling.directions;
+    input.program.drilling = made.drilling.orientations;
     input.program.entry = part.entry;
     for (const ProgramText& file : part.files) {
         input.program.files.push_back(file.name);
@@ -160,7 +160,7 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
         JobChunk record;
         record.file = chunk.name;
         record.tool = chunk.tool_number;
-        record.direction = chunk.direction;
+        record.orientation = chunk.orientation;
         input.program.chunks.push_back(record);
         input.program.holes.insert(input.program.holes.end(), chunk.holes.begin(), chunk.holes.end());
         if (input.tools.empty() || input.tools.back() != chunk.tool_number) input.tools.push_back(chunk.tool_number);
@@ -194,9 +194,9 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
     return caps;
 }
 
-PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+PiecePrograms make_programs(const Piece& piece, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
                             std::vector<DrawnCap> caps, const Context& context) {
-    const Setup& setup = carving.setup();
+    const Setup& setup = piece_setup.setup();
     const Cell planned = with_tools(cell, setup.tools);
     PostedProgram posted;
     MadePath made;
@@ -204,9 +204,9 @@ PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uin
     settings.scallop = settings.fine_scallop = cell.machine->program.scallop;
     const auto make = [&](const ToolpathSettings& asked) {
         StageTimer stage(context, "toolpaths made");
-        made = make_path(piece, carving, planned, caps, asked, context);
+        made = make_path(piece, piece_setup, planned, caps, asked, context);
         stage.next("programs made");
-        posted = make_parts(made, carving, piece_no, planned, context);
+        posted = make_parts(made, piece_setup, piece_no, planned, context);
     };
     try {
         try {

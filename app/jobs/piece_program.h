@@ -33,10 +33,10 @@ std::string no_programs_for(const Cell& cell);
 
 // The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after
 // finishing. Where a program cannot be made with a hole, this hole is left to the hand. Preconditions: the
-// carving is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
+// piece_setup is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
 // no_programs_for(cell) is empty. Where the machine cannot follow the toolpath there is no program, and none_because
 // says why. Throws Cancelled.
-PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+PiecePrograms make_programs(const Piece& piece, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
                             std::vector<DrawnCap> caps, const Context& context);
 
 // Caps of a piece that gets no program.

@@ -1,4 +1,4 @@
-// How pieces are carved in a cell. Each piece is computed once, for the stop rules and again for the jobs.
+// How pieces are milled in a cell. Each piece is computed once, for the stop rules and again for the jobs.
 //
 // Lengths in mm. Not for several threads at once.
 
@@ -13,19 +13,19 @@
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/envelope.h"
-#include "cam/setup/placement/work_envelope.h"
+#include "cam/setup/placement/machine_reachability.h"
+#include "cam/setup/stock_fit.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {
 
-struct Carving {
+struct PieceSetup {
     SetupChoice choice;
-    EnvelopeReport envelope;                   // of the setup
-    std::shared_ptr<const TriangleMesh> mesh;  // of the piece; while it is held, its address is not used again
-    WorkEnvelope work_envelope = {};           // of the setup; not checked but by held()
+    StockFit stock_fit;                             // of the setup
+    std::shared_ptr<const TriangleMesh> mesh;       // of the piece; while it is held, its address is not used again
+    MachineReachability machine_reachability = {};  // of the setup; not checked but by held()
     const Setup& setup() const { return choice.setups.front(); }
-    bool fits() const { return envelope.fits() && work_envelope.holds(); }
+    bool fits() const { return stock_fit.fits() && machine_reachability.holds(); }
 };
 
 class Setups {
@@ -48,34 +48,34 @@ class Setups {
     // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
     void compute(std::span<const Piece> pieces, const Context& context);
     // Valid while this object lives. Pieces are identified by their mesh.
-    const Carving& of(const Piece& piece);
+    const PieceSetup& of(const Piece& piece);
 
     // The setups that jobs are made of: with the place of the block, and another base or other directions where the
-    // machine does not hold every pose of the best one (held_setup.h). The same as compute() and of() in a cell
+    // machine does not hold every pose of the best one (reachable_setup.h). The same as compute() and of() in a cell
     // without a machine.
     void compute_held(std::span<const Piece> pieces, const Context& context);
-    const Carving& held(const Piece& piece);
+    const PieceSetup& held(const Piece& piece);
 
     // Forgets those of all other pieces.
     void keep_only(std::span<const Piece> pieces);
 
-    // For the stop rules, cheaper than held() and of(): whether block and extreme poses of carving from above are
+    // For the stop rules, cheaper than held() and of(): whether block and extreme poses of milling from above are
     // possible, kept per mesh; and on samples of the surface from the best base.
     bool fits(const Piece& piece);
     // For the stop rules as well, by held(): whether the machine holds every pose of the setup, and the block is no
     // higher than the longest tool, or hardly any more of the surface is out of reach than of a tool without holder
     // that tilts in all directions. A piece that is shorter than that tool always is, because cutting it further is no
-    // cure. True in a cell without a machine.
-    bool is_carvable(const Piece& piece);
+    // remedy. True in a cell without a machine.
+    bool is_machinable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
     // By the setup that its job is made of, held().
     UnreachableSurface left_by_setup(const Piece& piece);
     // Of cuts that make surface reachable: a square of two diameters of the finest tool, within which it cannot tell
     // what it reaches from what its own radius leaves.
-    double least_gain_mm2() const;
+    double min_gain_mm2() const;
 
  private:
-    using Carvings = std::map<const TriangleMesh*, Carving>;
+    using PieceSetups = std::map<const TriangleMesh*, PieceSetup>;
     struct Answer {
         std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be that of another mesh
         bool is_yes = false;
@@ -84,19 +84,19 @@ class Setups {
     const SetupOrder* order_for(const Piece& piece) const;
     SetupOptions options_for(const Piece& piece) const;
     const std::vector<std::uint16_t>& tools_for(const Piece& piece) const;
-    Carving carving_of(const Piece& piece) const;
-    bool find_whether_carvable(const Piece& piece);
-    Carving held_of(const Piece& piece, const Carving& best, const Context& context) const;
+    PieceSetup piece_setup_of(const Piece& piece) const;
+    bool find_whether_machinable(const Piece& piece);
+    PieceSetup held_of(const Piece& piece, const PieceSetup& best, const Context& context) const;
 
     Cell cell_;
     std::vector<std::uint16_t> tools_;
     Cell planned_;
     std::vector<SetupOrder> orders_;
     bool count_narrow_ = false;
-    Carvings carvings_;
-    Carvings held_;
+    PieceSetups piece_setups_;
+    PieceSetups held_;
     Answers fits_;
-    Answers carvable_;
+    Answers machinable_;
 };
 
 }  // namespace qchopper

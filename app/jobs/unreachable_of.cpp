@@ -1,28 +1,28 @@
-// One call of piece_reach() per piece; its cost is that of casting the rays of 4,000 samples.
+// One call of piece_access() per piece; its cost is that of casting the rays of 4,000 samples.
 
 #include "app/jobs/unreachable_of.h"
 
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 #include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
 
 UnreachableOf unreachable_of(double tilt_deg) {
-    PieceReachOptions options;
+    PieceAccessOptions options;
     options.tilt_deg = tilt_deg;
     options.takes_kept = true;
     options.asks_dense = false;
     return [options](const Piece& piece) {
         const std::vector<PieceBase> bases = bases_of(piece);
-        const PieceReach reach = piece_reach(piece, bases, options);
-        const BaseReach& best = reach.best();
+        const PieceAccess access = piece_access(piece, bases, options);
+        const BaseAccess& best = access.best();
         return UnreachableSurface{best.unreachable_mm2, best.share()};
     };
 }
 
 std::optional<double> share_by_objective(const Piece& piece, double tilt_deg) {
     if (!piece.samples) return std::nullopt;
-    return least_unreachable(piece.samples->judged(), oriented_box(piece.mesh->points).axis, tilt_deg).share();
+    return min_unreachable(piece.samples->judged(), oriented_box(piece.mesh->points).axis, tilt_deg).share();
 }
 
 }  // namespace qchopper

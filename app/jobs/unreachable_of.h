@@ -1,5 +1,5 @@
 // What of a piece is out of reach of a tilting tool, for the stop rule max_unreachable: on samples of the piece, from
-// the base that leaves least out of reach, along at most eight directions (segment/access/piece_reach.h).
+// the base that leaves least out of reach, along at most eight directions (segment/access/piece_access.h).
 //
 // mm2. The same piece gives the same bytes for any number of threads.
 

@@ -22,7 +22,7 @@ constexpr double plot_height = 560;
 constexpr double above_plot = 44;  // title of the panel
 constexpr double below_plot = 70;  // numbers and name of the x axis
 constexpr double left_of_plot = 90;
-constexpr double least_tick_distance = 80;
+constexpr double min_tick_distance = 80;
 
 constexpr Rgb paper{255, 255, 255};
 constexpr Rgb held_by_all{0, 92, 169};
@@ -94,7 +94,7 @@ double scale_of(const ReachSection& section) {
 
 // 1, 2 or 5 times a power of ten mm.
 double tick_distance(double scale) {
-    const double least = least_tick_distance / scale;
+    const double least = min_tick_distance / scale;
     const double power = std::pow(10, std::floor(std::log10(least)));
     return least <= power ? power : least <= 2 * power ? 2 * power : least <= 5 * power ? 5 * power : 10 * power;
 }
@@ -136,7 +136,7 @@ void draw_axes(Pixels& pixels, const SectionPanel& panel) {
 }
 
 void draw_cell(Pixels& pixels, const SectionPanel& panel, const Cell& cell) {
-    const Box& box = cell.reach;
+    const Box& box = cell.workspace;
     outline(pixels, {panel.x(box.min.x), panel.y(box.max.z), panel.x(box.max.x), panel.y(box.min.z)}, 3, box_colour);
     const bool is_rotary = cell.machine && cell.machine->rotary_table;
     const double half = is_rotary ? cell.machine->rotary_table->radius : cell.table.size_x / 2;

@@ -40,12 +40,12 @@ std::array<LegendEntry, base_index + 1> colours(bool narrow_counts) {
              {base_colour, "base"}}};
 }
 
-std::vector<std::uint8_t> colours_of(const Piece& piece, const CarvedPiece& carved) {
-    assert(carved.states.empty() || carved.states.size() == piece.mesh->triangles.size());
+std::vector<std::uint8_t> colours_of(const Piece& piece, const MilledPiece& milled) {
+    assert(milled.states.empty() || milled.states.size() == piece.mesh->triangles.size());
     std::vector<std::uint8_t> result(piece.mesh->triangles.size(), 0);
     for (std::size_t t = 0; t < result.size(); ++t) {
-        if (!carved.states.empty()) result[t] = static_cast<std::uint8_t>(carved.states[t]);
-        if (carved.base_cut && cap_of(*piece.mesh, t) == *carved.base_cut) result[t] = base_index;
+        if (!milled.states.empty()) result[t] = static_cast<std::uint8_t>(milled.states[t]);
+        if (milled.base_cut && cap_of(*piece.mesh, t) == *milled.base_cut) result[t] = base_index;
     }
     return result;
 }
@@ -65,16 +65,16 @@ std::vector<LegendEntry> legend_of(std::span<const LegendEntry> entries,
 
 }  // namespace
 
-Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const CarvedPiece> carved,
+Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const MilledPiece> milled,
                        bool narrow_counts, const Context& context) {
-    assert(!pieces.empty() && shifts.size() == pieces.size() && carved.size() == pieces.size());
+    assert(!pieces.empty() && shifts.size() == pieces.size() && milled.size() == pieces.size());
     const auto entries = colours(narrow_counts);
     std::array<Rgb, entries.size()> palette;
     for (std::size_t i = 0; i < entries.size(); ++i) palette[i] = entries[i].colour;
     std::vector<std::vector<std::uint8_t>> indices;
     std::array<bool, entries.size()> occurs{};
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-        indices.push_back(colours_of(pieces[p], carved[p]));
+        indices.push_back(colours_of(pieces[p], milled[p]));
         for (const std::uint8_t i : indices.back()) occurs[i] = true;
     }
     std::vector<ColouredMesh> meshes = coloured(pieces, shifts);

@@ -12,13 +12,13 @@
 
 #include "base/context.h"
 #include "base/files/file.h"
-#include "cam/setup/surface_reach.h"
+#include "cam/setup/surface_access.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
 
-// How the surface of one piece is carved.
-struct CarvedPiece {
+// How the surface of one piece is milled.
+struct MilledPiece {
     std::span<const SurfaceState> states;  // per triangle of the piece; empty: not known, all of it counts as reached
     std::optional<std::int32_t> base_cut;  // whose cap lies on the table
 };
@@ -26,7 +26,7 @@ struct CarvedPiece {
 // PNG. `shifts` (mm) moves the pieces apart; `narrow_counts`: what is too narrow for the smallest tool counts as out of
 // reach. Preconditions: one entry per piece in each; there is a piece. Throws
 // Cancelled.
-Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const CarvedPiece> carved,
+Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const MilledPiece> milled,
                        bool narrow_counts, const Context& context = {});
 
 }  // namespace qchopper

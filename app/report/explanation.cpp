@@ -87,8 +87,8 @@ std::vector<std::vector<std::string>> table(const Explanation& e) {
 
 // "120", or "up to 10,560 planes, 248 of them evaluated whole".
 std::string planes(const Explanation& e) {
-    if (e.most_judged == 0) return std::to_string(e.ranked.size());
-    return "up to " + with_commas(e.most_judged) + " planes, " + with_commas(e.ranked.size()) +
+    if (e.max_judged == 0) return std::to_string(e.ranked.size());
+    return "up to " + with_commas(e.max_judged) + " planes, " + with_commas(e.ranked.size()) +
            " of them evaluated whole";
 }
 
@@ -116,12 +116,12 @@ std::vector<std::string> opened_lines(const Explanation& e) {
 
 // What setups said of the cut; where they replaced it, they and not the totals decided.
 std::vector<std::string> setups_line(const Cut& cut, const Project& project) {
-    SetupVerdict of_cut;
-    if (!project.verdict) return {};
-    for (const CutVerdict& verdict : project.verdict->cuts) {
-        if (verdict.cut == cut.number) of_cut.cuts.push_back(verdict);
+    SetupReview of_cut;
+    if (!project.review) return {};
+    for (const CutReview& review : project.review->cuts) {
+        if (review.cut == cut.number) of_cut.cuts.push_back(review);
     }
-    return verdict_lines(of_cut);
+    return review_lines(of_cut);
 }
 
 Json json_of(const OpenedSurface& o) {
@@ -136,7 +136,7 @@ Json json_of(const OpenedSurface& o) {
 
 }  // namespace
 
-std::string verdict(const Explanation& e) {
+std::string describe(const Explanation& e) {
     const Ranked* other = e.best_other();
     if (other == nullptr) {
         return e.place ? "The plane is the only candidate that parts the piece."
@@ -148,7 +148,7 @@ std::string verdict(const Explanation& e) {
     const std::string why = " (" + differences(e.chosen.terms, other->terms, w) + ").";
     const std::size_t cheaper = e.cheaper();
     if (!e.place) {
-        const std::string beside = origin_of(e.cut) + ", beside " + count + (e.most_judged == 0 ? " candidates" : "");
+        const std::string beside = origin_of(e.cut) + ", beside " + count + (e.max_judged == 0 ? " candidates" : "");
         if (std::abs(more) < 0.0005) return beside + ": the best of them costs as much.";
         return beside + ": the best of them would cost " + fixed(std::abs(more), 3) + (more > 0 ? " more" : " less") +
                why;
@@ -166,7 +166,7 @@ std::vector<std::string> lines(const Explanation& e, const Project& project, con
                                   makes(e.cut)};
     for (const std::string& line : scan_lines(project)) text.push_back(line);
     for (const std::string& line : discarded_lines(project)) text.push_back(line);
-    text.push_back(verdict(e));
+    text.push_back(describe(e));
     for (const std::string& line : setups_line(e.cut, project)) text.push_back(line);
     for (const std::string& line : opened_lines(e)) text.push_back(line);
     for (const std::string& line : columns(table(e))) text.push_back(line);
@@ -196,11 +196,11 @@ std::string document(const Explanation& e, const Project& project, const std::st
               {"place", e.place ? Json(*e.place + 1) : Json()},
               {"candidates", e.ranked.size()},
               {"best", best},
-              {"verdict", verdict(e)},
+              {"verdict", describe(e)},
               {"picture", picture}};
     if (e.opened) {
         json["opened"] = json_of(*e.opened);
-        json["most_judged"] = e.most_judged;
+        json["most_judged"] = e.max_judged;
     }
     add_scan(json, project);
     return text_of(json);

@@ -11,7 +11,7 @@
 namespace qchopper {
 
 // A sentence that compares the chosen plane with the next or with the best.
-std::string verdict(const Explanation& explanation);
+std::string describe(const Explanation& explanation);
 
 // What the cut made, the verdict, and a table of the ten best planes, with the chosen one if it is not among them.
 std::vector<std::string> lines(const Explanation& explanation, const Project& project, const std::string& picture);

@@ -26,14 +26,14 @@ struct Line {
     std::vector<Ranked> planes;
 };
 
-constexpr std::size_t most_lines = 3;
+constexpr std::size_t max_lines = 3;
 
 // The normals of the best planes, so many as there is room for.
 std::set<int> shown_normals(const Explanation& e) {
     std::set<int> normals;
     if (e.place && e.chosen.normal_index >= 0) normals.insert(e.chosen.normal_index);
     for (const Ranked& r : e.ranked) {
-        if (r.normal_index >= 0 && normals.size() < most_lines) normals.insert(r.normal_index);
+        if (r.normal_index >= 0 && normals.size() < max_lines) normals.insert(r.normal_index);
     }
     return normals;
 }
@@ -118,7 +118,7 @@ Plot plot(const Explanation& e, const std::string& project) {
     Plot plot;
     plot.title = project + ": cut " + std::to_string(e.cut.number) + " on piece " + e.cut.piece;
     plot.notes = {
-        verdict(e),
+        describe(e),
         "Below the totals: what each objective adds (value times weight). Lower is better. Arrows: beyond the frame."};
     for (const Line& line : lines) {
         PlotColumn column{line.title, "offset along the normal, mm", {}};

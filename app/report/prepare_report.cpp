@@ -8,10 +8,10 @@
 
 #include "app/report/columns.h"
 #include "app/report/joint_report.h"
+#include "app/report/machine_reachability_report.h"
 #include "app/report/program_report.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
-#include "app/report/work_envelope_report.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
 #include "app/store/value_json.h"
@@ -37,20 +37,20 @@ Json cut_json(const Cut& cut) {
             {"fragments", cut.fragments}};
 }
 
-Json advice_json(const std::vector<ReachAdvice>& advice) {
+Json advice_json(const std::vector<AccessAdvice>& advice) {
     Json list = Json::array();
-    for (const ReachAdvice& a : advice) {
-        list.push_back({{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.cures}});
+    for (const AccessAdvice& a : advice) {
+        list.push_back({{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.remedies}});
     }
     return list;
 }
 
 // ": 3.01 % because of the holder (a longer tool ...), 0.53 % ...": the two largest parts.
-std::string advice_words(const std::vector<ReachAdvice>& advice) {
+std::string advice_words(const std::vector<AccessAdvice>& advice) {
     std::string words;
     for (std::size_t i = 0; i < std::min<std::size_t>(advice.size(), 2); ++i) {
-        const ReachAdvice& a = advice[i];
-        words += (i == 0 ? ": " : ", ") + share_word(a.share) + " " + a.what + " (" + a.cures + ")";
+        const AccessAdvice& a = advice[i];
+        words += (i == 0 ? ": " : ", ") + share_word(a.share) + " " + a.what + " (" + a.remedies + ")";
     }
     return words;
 }
@@ -68,9 +68,9 @@ std::vector<std::string> missing_programs(const PreparedProject& prepared) {
 }
 
 Json piece_json(const PieceReport& piece, const Cell& cell) {
-    const Setup& s = piece.carving.setup();
+    const Setup& s = piece.piece_setup.setup();
     Json margins;
-    for (const Margin& m : piece.carving.envelope.margins) margins[m.name] = m.mm;
+    for (const Margin& m : piece.piece_setup.stock_fit.margins) margins[m.name] = m.mm;
     return {{"name", piece.name},
             {"faces", piece.faces},
             {"volume_mm3", piece.volume_mm3},
@@ -82,10 +82,10 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"base", s.base_description},
             {"undercut", s.undercut},
             {"workholding", workholding_json(s)},
-            {"reach", reach_json(s.reach)},
-            {"fits", piece.carving.fits()},
+            {"reach", access_json(s.access)},
+            {"fits", piece.piece_setup.fits()},
             {"margins_mm", margins},
-            {"work_envelope", json_of(piece.carving.work_envelope)},
+            {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
             {"out_of_reach", advice_json(piece.advice)},
             {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
             {"program", program_json(piece)}};
@@ -96,20 +96,21 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
 std::vector<std::string> warnings(const PreparedProject& prepared) {
     std::vector<std::string> text;
     for (const PieceReport& p : prepared.pieces) {
-        const double share = p.carving.setup().reach.unreachable_share();
+        const double share = p.piece_setup.setup().access.unreachable_share();
         if (p.job.empty()) {
-            text.push_back((p.carving.envelope.fits() ? describe_work_envelope(p.name, p.carving.work_envelope)
-                                                      : describe_envelope(p.name, p.carving.envelope)) +
+            text.push_back((p.piece_setup.stock_fit.fits()
+                                ? describe_reachability(p.name, p.piece_setup.machine_reachability)
+                                : describe_stock_fit(p.name, p.piece_setup.stock_fit)) +
                            "; it gets no job");
         } else if (share > prepared.max_unreachable) {
             text.push_back(out_of_reach_sentence(p.name, share, prepared.max_unreachable) + advice_words(p.advice) +
                            "; see qchopper setup " + shell_word(prepared.folder) + " --piece " + p.name +
                            ", or dispatch it with --accept-unreachable");
         }
-        const std::optional<Workholding>& held = p.carving.setup().workholding;
-        if (held && !held->passes() && !p.job.empty()) {
-            text.push_back("piece " + p.name + " is not held safely: " + workholding_problem(*held) + "; " +
-                           workholding_remedy(*held) + "; dispatch asks before it sends it");
+        const std::optional<Workholding>& workholding = p.piece_setup.setup().workholding;
+        if (workholding && !workholding->passes() && !p.job.empty()) {
+            text.push_back("piece " + p.name + " is not held safely: " + workholding_problem(*workholding) + "; " +
+                           workholding_remedy(*workholding) + "; dispatch asks before it sends it");
         }
         for (const std::string& sentence : program_warnings(p, prepared.folder)) text.push_back(sentence);
     }
@@ -123,14 +124,14 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     std::vector<std::vector<std::string>> rows{{"piece", "faces", "volume", "box mm", "block", "base", "directions",
                                                 "unreachable", "foam", "depth mm", "workholding", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
-        const Setup& s = p.carving.setup();
-        const bool is_mapped = s.reach.method == ReachMethod::mapped;
+        const Setup& s = p.piece_setup.setup();
+        const bool is_mapped = s.access.method == AccessMethod::mapped;
         rows.push_back(
             {p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
-             prepared.cell.stock[s.block.stock].name, base_word(s), std::to_string(s.reach.directions.size()),
-             share_word(s.reach.unreachable_share()), is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
-             is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", workholding_word(s), p.job.empty() ? "no" : "yes"});
-        if (prepared.cell.machine) rows.back().push_back(margin_word(p.carving.work_envelope));
+             prepared.cell.stock[s.block.stock].name, base_word(s), std::to_string(s.access.orientations.size()),
+             share_word(s.access.unreachable_share()), is_mapped ? describe_volume(s.access.foam_mm3) : "-",
+             is_mapped ? fixed(s.access.foam_depth_mm, 0) : "-", workholding_word(s), p.job.empty() ? "no" : "yes"});
+        if (prepared.cell.machine) rows.back().push_back(margin_word(p.piece_setup.machine_reachability));
         if (prepared.has_programs()) rows.back().push_back(program_word(p));
     }
     if (prepared.cell.machine) rows.front().emplace_back("tightest margin");
@@ -144,8 +145,8 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     for (const std::string& line : scan_lines(prepared.project)) lines.push_back(line);
     if (const std::string line = fragments_line(prepared.project); !line.empty()) lines.push_back(line);
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
-    if (prepared.project.verdict) {
-        for (const std::string& line : verdict_lines(*prepared.project.verdict)) lines.push_back(line);
+    if (prepared.project.review) {
+        for (const std::string& line : review_lines(*prepared.project.review)) lines.push_back(line);
     }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PieceReport& p) { return !p.job.empty(); });
@@ -162,8 +163,8 @@ std::string document(const PreparedProject& prepared) {
     Json cuts = Json::array();
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
     Json verdicts = Json::array();
-    if (p.verdict) {
-        for (const CutVerdict& verdict : p.verdict->cuts) verdicts.push_back(json_of(verdict));
+    if (p.review) {
+        for (const CutReview& review : p.review->cuts) verdicts.push_back(json_of(review));
     }
     Json pieces = Json::array();
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));

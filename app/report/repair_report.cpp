@@ -26,13 +26,13 @@ std::string unit_of_lengths(const RepairedScan& scan) {
 }
 
 std::string distance_line(const RepairedScan& scan) {
-    const Farthest& f = scan.report.deviation->largest();
+    const OneSidedDistance& f = scan.report.deviation->largest();
     if (f.triangles == 0) return "nothing that was scanned has changed its place";
     return fixed(f.mm, 6) + " " + unit_of_lengths(scan) + ", at most " + fixed(f.at_most, 6) +
            ", from the scan to the result over what changed";
 }
 
-Json farthest(const Farthest& f) {
+Json one_sided_distance(const OneSidedDistance& f) {
     return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", json_of(f.at)}, {"faces_looked_at", f.triangles}};
 }
 
@@ -100,7 +100,7 @@ Json pen_grooves(const RepairReport& r) {
             {"points_moved", r.pen_grooves->points_moved},
             {"area_mm2", r.pen_grooves->area_mm2},
             {"length_mm", r.pen_grooves->length_mm},
-            {"most_depth_mm", r.pen_grooves->most_depth},
+            {"most_depth_mm", r.pen_grooves->max_depth},
             {"mean_depth_mm", r.pen_grooves->mean_depth}};
 }
 
@@ -154,8 +154,8 @@ std::string document(const RepairedScan& scan, const RepairRequest& request) {
     if (r.deviation) {
         json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
                              {"largest", r.deviation->largest().mm},
-                             {"from_scan", farthest(r.deviation->from_scan)},
-                             {"from_result", farthest(r.deviation->from_result)}};
+                             {"from_scan", one_sided_distance(r.deviation->from_scan)},
+                             {"from_result", one_sided_distance(r.deviation->from_result)}};
     }
     json["warnings"] = scan.warnings;
     json["verdict"] = verdict(r);

@@ -47,7 +47,7 @@ void add(std::vector<std::string>& text, const std::vector<std::string>& more) {
     text.insert(text.end(), more.begin(), more.end());
 }
 
-bool has_reach(const Project& project) {
+bool has_access(const Project& project) {
     return project.settings.objectives.weights.unreachable > 0;
 }
 
@@ -84,7 +84,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const Project& projec
     add(text, columns(rows));
     if (!p.listed.empty() && is_forbidden(p.listed.front().terms, objectives))
         text.emplace_back("Every plane has a forbidden value.");
-    if (has_reach(project)) {
+    if (has_access(project)) {
         text.emplace_back("unreachable: of the scan's surface, over all pieces, once this plane has cut.");
     }
     std::string crossing;
@@ -101,7 +101,7 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
     std::vector<std::string> text;
     text.push_back("Plane " + describe(p.plane.plane.normal, 6) + ", " + fixed(p.plane.plane.offset, 3) +
                    " mm on piece " + p.piece + ": total " + fixed(p.plane.terms.total, 4));
-    if (has_reach(project)) {
+    if (has_access(project)) {
         text.push_back("With it " + percent(p.plane.terms.unreachable) +
                        " of the scan's surface would be out of reach, over all pieces.");
     }
@@ -179,7 +179,7 @@ Json proposal_json(const Proposal& p, const Project& project) {
               {"rules_hold", p.rules_hold},
               {"candidates", p.candidates},
               {"planes", planes}};
-    if (const std::size_t judged = most_judged_planes(project.settings); judged > 0) json["most_judged"] = judged;
+    if (const std::size_t judged = max_judged_planes(project.settings); judged > 0) json["most_judged"] = judged;
     return json;
 }
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "app/report/columns.h"
+#include "app/report/machine_reachability_report.h"
 #include "app/report/program_report.h"
-#include "app/report/work_envelope_report.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
 #include "app/store/value_json.h"
@@ -22,8 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string of_area(double mm2, const SurfaceReach& reach) {
-    return reach.area_mm2 > 0 ? share_word(mm2 / reach.area_mm2) : "-";
+std::string of_area(double mm2, const SurfaceAccess& access) {
+    return access.area_mm2 > 0 ? share_word(mm2 / access.area_mm2) : "-";
 }
 
 std::string size_word(Vec3 v) {
@@ -36,8 +36,8 @@ const std::vector<std::string> setup_columns{"base",       "unreachable", "hidde
 
 // `is_held`: whether the machine holds all poses, as far as it was asked.
 std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_held) {
-    const SurfaceReach& r = setup.reach;
-    const bool is_mapped = r.method == ReachMethod::mapped;
+    const SurfaceAccess& r = setup.access;
+    const bool is_mapped = r.method == AccessMethod::mapped;
     const std::string mark = is_mapped ? "" : "~";
     return {base_word(setup),
             mark + share_word(r.unreachable_share()),
@@ -47,27 +47,27 @@ std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_he
             of_area(r.too_narrow_mm2, r),
             is_mapped ? describe_volume(r.foam_mm3) : "-",
             is_mapped ? fixed(r.foam_depth_mm, 0) : "-",
-            is_mapped ? describe_volume(r.residue_mm3) : "-",
-            std::to_string(r.directions.size()),
+            is_mapped ? describe_volume(r.rest_material_mm3) : "-",
+            std::to_string(r.orientations.size()),
             size_word(setup.block.size),
             workholding_word(setup),
-            check_envelope(setup, with_tools(cell, setup.tools)).fits() && is_held ? "yes" : "no"};
+            check_stock_fit(setup, with_tools(cell, setup.tools)).fits() && is_held ? "yes" : "no"};
 }
 
-// Degrees from x towards y of the setup, of the way the tool comes out.
-double azimuth_deg(const Setup& setup, const SetupDirection& direction) {
-    const Vec3 d = setup.tool_axis(direction);
+// Degrees from x towards y of the setup, of the tool axis.
+double azimuth_deg(const Setup& setup, const ToolOrientation& orientation) {
+    const Vec3 d = setup.tool_axis(orientation);
     return std::atan2(d.y, d.x) * 180 / std::numbers::pi;
 }
 
-std::string direction_line(const Setup& setup, const SetupDirection& d) {
+std::string direction_line(const Setup& setup, const ToolOrientation& d) {
     return "tilt " + fixed(d.tilt_deg, 0) + ", azimuth " + fixed(azimuth_deg(setup, d), 0) + " degrees";
 }
 
 void add_directions(const Setup& setup, std::vector<std::string>& lines) {
     std::vector<std::vector<std::string>> rows{{"direction", "tilt", "azimuth", "reaches more", "depth mm"}};
-    for (std::size_t i = 0; i < setup.reach.directions.size(); ++i) {
-        const SetupDirection& d = setup.reach.directions[i];
+    for (std::size_t i = 0; i < setup.access.orientations.size(); ++i) {
+        const ToolOrientation& d = setup.access.orientations[i];
         rows.push_back({std::to_string(i + 1), fixed(d.tilt_deg, 0), i == 0 ? "-" : fixed(azimuth_deg(setup, d), 0),
                         share_word(d.gained_share), fixed(d.depth_mm, 0)});
     }
@@ -75,26 +75,26 @@ void add_directions(const Setup& setup, std::vector<std::string>& lines) {
 }
 
 void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std::string>& lines) {
-    const Setup& chosen = p.carving.setup();
+    const Setup& chosen = p.piece_setup.setup();
     lines.push_back("Piece " + p.piece + " lies on " + base_word(chosen) +
                     (p.order && p.order->base ? " by decision" : "") + "; all ways to lay it, the one in force first:");
     std::vector<std::vector<std::string>> rows{setup_columns};
-    for (const Setup& setup : p.carving.choice.setups) {
-        rows.push_back(row_of(setup, answer.cell, &setup != &chosen || p.carving.work_envelope.holds()));
+    for (const Setup& setup : p.piece_setup.choice.setups) {
+        rows.push_back(row_of(setup, answer.cell, &setup != &chosen || p.piece_setup.machine_reachability.holds()));
     }
     for (const std::string& line : columns(rows)) lines.push_back(line);
     lines.emplace_back("Shares are of the area without the base; ~ marks those judged on samples alone.");
     lines.emplace_back("Directions of the setup in force, in degrees:");
     add_directions(chosen, lines);
-    const SurfaceReach& reach = chosen.reach;
-    if (reach.ignored_mm2 > 0) {
-        lines.push_back("Beside that " + fixed(reach.ignored_mm2 / 100, 1) + " cm2 of the piece are ignored.");
+    const SurfaceAccess& access = chosen.access;
+    if (access.ignored_mm2 > 0) {
+        lines.push_back("Beside that " + fixed(access.ignored_mm2 / 100, 1) + " cm2 of the piece are ignored.");
     }
-    lines.push_back("With all directions that can be held " + share_word(reach.all_directions_share) +
+    lines.push_back("With all directions that can be held " + share_word(access.all_directions_share) +
                     " stays out of reach.");
-    if (reach.further) {
-        lines.push_back("One more direction (" + direction_line(chosen, *reach.further) + ") would reach " +
-                        share_word(reach.further->gained_share) + " more.");
+    if (access.further) {
+        lines.push_back("One more direction (" + direction_line(chosen, *access.further) + ") would reach " +
+                        share_word(access.further->gained_share) + " more.");
     }
     if (!chosen.tools.empty()) {
         lines.push_back("Of the cell's tools it is carved with " + describe_tools(chosen.tools) + " alone, by order.");
@@ -103,9 +103,9 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
         for (const std::string& line : qchopper::lines(*chosen.workholding)) lines.push_back(line);
     }
     for (const std::string& warning : chosen.warnings) lines.push_back("Note: " + warning + ".");
-    for (const std::string& line : qchopper::lines(p.piece, p.carving.work_envelope)) lines.push_back(line);
-    if (!p.carving.envelope.fits()) {
-        lines.push_back(describe_envelope(p.piece, p.carving.envelope) + ".");
+    for (const std::string& line : qchopper::lines(p.piece, p.piece_setup.machine_reachability)) lines.push_back(line);
+    if (!p.piece_setup.stock_fit.fits()) {
+        lines.push_back(describe_stock_fit(p.piece, p.piece_setup.stock_fit) + ".");
         lines.push_back("To do: cut it, qchopper segment " + shell_word(answer.folder) + " --piece " + p.piece +
                         " --step, or enter a larger block in the cell file.");
     }
@@ -122,7 +122,7 @@ Json setup_json(const Setup& setup, const Cell& cell) {
     return {{"base_number", setup.base_number},
             {"base_cut", setup.base ? Json(*setup.base) : Json()},
             {"base", setup.base_description},
-            {"fits", check_envelope(setup, with_tools(cell, setup.tools)).fits()},
+            {"fits", check_stock_fit(setup, with_tools(cell, setup.tools)).fits()},
             {"block", cell.stock[setup.block.stock].name},
             {"block_mm", json_of(setup.block.size)},
             {"sawn", setup.block.is_sawn},
@@ -131,12 +131,14 @@ Json setup_json(const Setup& setup, const Cell& cell) {
             {"undercut_by_count", setup.undercut_by_count},
             {"tools", setup.tools.empty() ? Json() : Json(setup.tools)},
             {"workholding", workholding_json(setup)},
-            {"reach", reach_json(setup.reach)}};
+            {"reach", access_json(setup.access)}};
 }
 
-Json direction_json(const SetupDirection& d) {
-    return {
-        {"out", json_of(d.out)}, {"tilt_deg", d.tilt_deg}, {"gained_share", d.gained_share}, {"depth_mm", d.depth_mm}};
+Json direction_json(const ToolOrientation& d) {
+    return {{"out", json_of(d.tool_axis)},
+            {"tilt_deg", d.tilt_deg},
+            {"gained_share", d.gained_share},
+            {"depth_mm", d.depth_mm}};
 }
 
 }  // namespace
@@ -155,10 +157,10 @@ std::string arm_note(const Cell& cell) {
            "possible.";
 }
 
-nlohmann::ordered_json reach_json(const SurfaceReach& r) {
+nlohmann::ordered_json access_json(const SurfaceAccess& r) {
     Json directions = Json::array();
-    for (const SetupDirection& d : r.directions) directions.push_back(direction_json(d));
-    Json json{{"method", r.method == ReachMethod::mapped ? "mapped" : "sampled"},
+    for (const ToolOrientation& d : r.orientations) directions.push_back(direction_json(d));
+    Json json{{"method", r.method == AccessMethod::mapped ? "mapped" : "sampled"},
               {"unreachable_share", r.unreachable_share()},
               {"area_mm2", r.area_mm2},
               {"hidden_mm2", r.hidden_mm2},
@@ -170,7 +172,7 @@ nlohmann::ordered_json reach_json(const SurfaceReach& r) {
               {"all_directions_share", r.all_directions_share},
               {"foam_mm3", r.foam_mm3},
               {"foam_depth_mm", r.foam_depth_mm},
-              {"residue_mm3", r.residue_mm3},
+              {"residue_mm3", r.rest_material_mm3},
               {"arm_checked", r.is_arm_checked},
               {"directions", directions},
               {"further", r.further ? direction_json(*r.further) : Json()}};
@@ -186,7 +188,7 @@ std::string out_of_reach_sentence(const std::string& piece, double share, double
 std::vector<std::string> warnings(const SetupAnswer& answer) {
     std::vector<std::string> sentences;
     for (const PieceSetups& p : answer.pieces) {
-        const double share = p.carving.setup().reach.unreachable_share();
+        const double share = p.piece_setup.setup().access.unreachable_share();
         if (share <= answer.max_unreachable) continue;
         const bool is_ordered = p.order && (p.order->base || p.order->max_directions);
         sentences.push_back(out_of_reach_sentence(p.piece, share, answer.max_unreachable) +
@@ -206,7 +208,8 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
         std::vector<std::vector<std::string>> rows{setup_columns};
         rows.front().insert(rows.front().begin(), "piece");
         for (const PieceSetups& p : answer.pieces) {
-            std::vector<std::string> row = row_of(p.carving.setup(), answer.cell, p.carving.work_envelope.holds());
+            std::vector<std::string> row =
+                row_of(p.piece_setup.setup(), answer.cell, p.piece_setup.machine_reachability.holds());
             row.insert(row.begin(), p.piece);
             rows.push_back(std::move(row));
         }
@@ -229,7 +232,7 @@ std::string document(const SetupAnswer& answer) {
     Json pieces = Json::array();
     for (const PieceSetups& p : answer.pieces) {
         Json setups = Json::array();
-        for (const Setup& setup : p.carving.choice.setups) setups.push_back(setup_json(setup, answer.cell));
+        for (const Setup& setup : p.piece_setup.choice.setups) setups.push_back(setup_json(setup, answer.cell));
         Json ordered;
         if (p.order) {
             ordered = Json{{"base", p.order->base ? Json(*p.order->base) : Json()},
@@ -239,7 +242,7 @@ std::string document(const SetupAnswer& answer) {
         pieces.push_back({{"name", p.piece},
                           {"ordered", ordered},
                           {"setups", setups},
-                          {"work_envelope", json_of(p.carving.work_envelope)}});
+                          {"work_envelope", json_of(p.piece_setup.machine_reachability)}});
     }
     Json json{{"schema", "qchopper-setup-1"},
               {"project", answer.folder.string()},

@@ -25,7 +25,7 @@ std::vector<std::string> warnings(const SetupAnswer& answer);
 std::string arm_note(const Cell& cell);
 
 // With the keys of the manifest's reach (docs/developer/formats/job-folder.md), the directions in piece coordinates.
-nlohmann::ordered_json reach_json(const SurfaceReach& reach);
+nlohmann::ordered_json access_json(const SurfaceAccess& access);
 
 std::vector<std::string> lines(const SetupAnswer& answer);
 // The document qchopper-setup-1 (tests/app/cli/setup_test.cpp).

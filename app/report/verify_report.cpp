@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_shown = 5;  // findings of a job, for people
+constexpr std::size_t max_shown = 5;  // findings of a job, for people
 
 std::string figure_word(const ProofFigure& figure) {
     return figure.name + " " + fixed(figure.value, figure.decimals) + (figure.unit.empty() ? "" : " " + figure.unit);
@@ -50,7 +50,7 @@ Json json_of_job(const VerifiedJob& job) {
 }
 
 void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
-    const std::size_t shown = std::min(most_shown, verdict.findings.size());
+    const std::size_t shown = std::min(max_shown, verdict.findings.size());
     for (std::size_t i = 0; i < shown; ++i) text.push_back("  " + describe(verdict.findings[i]));
     const std::size_t more = verdict.findings.size() - shown + verdict.findings_left_out;
     if (more > 0) text.push_back("  and " + counted(more, "more finding"));

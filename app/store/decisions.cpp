@@ -41,19 +41,19 @@ std::string describe(const Decision& decision) {
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
 }
 
-std::size_t most_judged_planes(const SearchSettings& settings) {
+std::size_t max_judged_planes(const SearchSettings& settings) {
     constexpr std::size_t of_box = 3;
     constexpr std::size_t of_sphere = 129 + of_box;  // the octahedron's
     const Objectives& objectives = settings.objectives;
-    const bool is_by_reach = objectives.weights.unreachable > 0;
-    if (!is_by_reach && !objectives.needs_connector() && !objectives.needs_symmetry()) return 0;
-    const CandidateNormals usual = is_by_reach ? CandidateNormals::sphere : CandidateNormals::box;
+    const bool is_by_access = objectives.weights.unreachable > 0;
+    if (!is_by_access && !objectives.needs_connector() && !objectives.needs_symmetry()) return 0;
+    const CandidateNormals usual = is_by_access ? CandidateNormals::sphere : CandidateNormals::box;
     const bool is_box = settings.candidates.normals.value_or(usual) == CandidateNormals::box;
-    return (is_box ? of_box : of_sphere) * static_cast<std::size_t>(most_offsets(settings.candidates));
+    return (is_box ? of_box : of_sphere) * static_cast<std::size_t>(max_offsets(settings.candidates));
 }
 
 std::string describe_planes(std::size_t evaluated, const SearchSettings& settings) {
-    const std::size_t judged = most_judged_planes(settings);
+    const std::size_t judged = max_judged_planes(settings);
     if (judged == 0) return with_commas(evaluated) + (evaluated == 1 ? " plane" : " planes");
     return "up to " + with_commas(judged) + " planes, " + with_commas(evaluated) + " of them evaluated whole";
 }

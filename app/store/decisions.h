@@ -47,17 +47,17 @@ struct Discard {
 // Those that one decision leaves out, at least one, all after the same cut.
 using Discards = std::vector<Discard>;
 
-// How a piece is laid and carved in place of what the program chooses. With nothing of it the program chooses again.
+// How a piece is laid and milled in place of what the program chooses. With nothing of it the program chooses again.
 struct SetupOrder {
     std::string piece;                          // its name
-    std::optional<int> base;                    // number of the base (segment/access/piece_reach.h)
+    std::optional<int> base;                    // number of the base (segment/access/piece_access.h)
     std::optional<std::size_t> max_directions;  // of the tool
     std::vector<std::uint16_t> tools = {};      // numbers of those that may be used; empty: no other than the project's
     bool is_free() const { return !base && !max_directions && tools.empty(); }
     bool operator==(const SetupOrder&) const = default;
 };
 
-// Another plane for a cut of which no piece was cut since (segment/search/recut.h), because its pieces can be carved
+// Another plane for a cut of which no piece was cut since (segment/search/recut.h), because its pieces can be milled
 // better so. No piece is discarded after this cut, and none of it or of a later cut has a setup of the operator's.
 struct Replacement {
     Cut cut;  // in place of the one with its number
@@ -78,9 +78,9 @@ struct History {
 std::string describe(const Decision& decision);
 
 // So many planes of a piece at most are judged by what they leave out of reach, or by the terms that are fast, before
-// those that can win are evaluated by all terms (segment/search/reach_rank.h, late_rank.h); 0 where all are evaluated
+// those that can win are evaluated by all terms (segment/search/access_rank.h, late_rank.h); 0 where all are evaluated
 // whole.
-std::size_t most_judged_planes(const SearchSettings& settings);
+std::size_t max_judged_planes(const SearchSettings& settings);
 
 // "up to 10,560 planes, 32 of them evaluated whole", or "120 planes": among which a plane was chosen.
 std::string describe_planes(std::size_t evaluated, const SearchSettings& settings);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double least_left = 0.001;  // of the area: with less there is nothing to carve
+constexpr double min_left = 0.001;  // of the area: with less there is nothing to mill
 
 double ignored_share(const TriangleMesh& scan) {
     double ignored = 0;
@@ -66,7 +66,7 @@ std::optional<IgnoredSurface> ignore_surface(const ProjectChoices& choices, std:
     }
     scan.ignored = std::move(flags);
     ignored.share = ignored_share(scan);
-    if (ignored.share > 1 - least_left) {
+    if (ignored.share > 1 - min_left) {
         throw InputError(InputFault::mesh, "all of the scan's surface would be ignored",
                          "paint only what may stay as it is");
     }

@@ -10,8 +10,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double far_share = 0.005;     // of the diagonal: a painted surface farther from the scan is another's
-constexpr double most_far_area = 0.01;  // of the painted area
+constexpr double far_share = 0.005;    // of the diagonal: a painted surface farther from the scan is another's
+constexpr double max_far_area = 0.01;  // of the painted area
 
 }  // namespace
 
@@ -22,7 +22,7 @@ void place_on_scan(TriangleMesh& painted, double factor, Vec3 centre) {
 void check_is_of_scan(const TriangleMesh& painted, const TriangleMesh& scan, const std::string& name) {
     const double distance = far_share * norm(bounds(scan).size());
     const double off = share_off_scan(painted, scan, distance);
-    if (off <= most_far_area) return;
+    if (off <= max_far_area) return;
     throw InputError(InputFault::mesh,
                      name + " is not painted on this scan: " + fixed(100 * off, 1) + " % of its surface is more than " +
                          significant(distance, 3) + " mm away from it",

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* first_line = "# QChopper plan";
 constexpr std::uint32_t schema = 1;
 constexpr double most = 1e15;  // of any number but a count
-constexpr std::uint32_t most_count = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t max_count = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t longest_text = 1000;  // bytes; the name of a file has at most 255
 
 constexpr std::array<std::string_view, 5> plan_keys{"schema", "scan", "weights", "cut", "discard"};
@@ -80,7 +80,7 @@ PlanScan scan_from(const TomlReader& t) {
     }
     scan.scale = positive(t, "scale");
     scan.centre = t.vector("centre_mm", -most, most);
-    scan.faces = t.whole("faces", 1, most_count);
+    scan.faces = t.whole("faces", 1, max_count);
     scan.volume_mm3 = positive(t, "volume_mm3");
     scan.box = {t.vector("box_min_mm", -most, most), t.vector("box_max_mm", -most, most)};
     return scan;
@@ -110,7 +110,7 @@ PlanPiece piece_from(const TomlReader& t, std::int32_t number) {
 }
 
 PlanCut cut_from(const TomlReader& t, std::int32_t expected, Vec3 centre) {
-    if (t.whole("number", 1, most_count) != static_cast<std::uint32_t>(expected)) {
+    if (t.whole("number", 1, max_count) != static_cast<std::uint32_t>(expected)) {
         t.refuse("number", "must count 1, 2, ... in the order of the cuts");
     }
     PlanCut cut{piece_from(t, expected), expected, {}, 0, {}};
@@ -153,7 +153,7 @@ std::vector<PlanDiscard> discards_from(const TomlReader& plan, std::size_t cuts)
 }
 
 Plan plan_from(const TomlReader& top) {
-    if (top.whole("schema", 1, most_count) != schema) top.refuse("schema", "this version reads schema 1");
+    if (top.whole("schema", 1, max_count) != schema) top.refuse("schema", "this version reads schema 1");
     Plan plan;
     plan.scan = scan_from(top.table("scan", scan_keys));
     const TomlReader w = top.table("weights", weight_keys);

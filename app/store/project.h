@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/store/cut_verdict.h"
+#include "app/store/cut_review.h"
 #include "app/store/decisions.h"
 #include "base/sha256.h"
 #include "segment/import/import_scan.h"
@@ -69,7 +69,7 @@ struct WrittenJob {
     std::string piece;
     Sha256 sha256;           // of the whole file
     std::string project_id;  // 32 hexadecimal digits, as in the job itself
-    std::uint16_t part = 1;  // of a piece that several jobs carve in one clamping
+    std::uint16_t part = 1;  // of a piece that several jobs mill in one clamping
     bool operator==(const WrittenJob&) const = default;
 };
 
@@ -99,11 +99,11 @@ struct Project {
     std::vector<Discard> discards;       // those in force
     std::vector<SolidRecord> discarded;  // the discarded pieces, one per discard
     std::vector<std::string> warnings;
-    std::optional<BeamState> beam;        // of a search that was interrupted and can go on
-    std::optional<SetupVerdict> verdict;  // what setups said of the cuts after the search; nothing: they were not asked
-    bool has_programs = true;             // whether jobs are written with robot programs, where the cell allows it
-    std::vector<std::uint16_t> tools;     // numbers of those that may be used; empty: all of the cell
-    std::vector<WrittenJob> jobs;  // in the order of the pieces and their parts; none of a piece that does not fit
+    std::optional<BeamState> beam;      // of a search that was interrupted and can go on
+    std::optional<SetupReview> review;  // what setups said of the cuts after the search; nothing: they were not asked
+    bool has_programs = true;           // whether jobs are written with robot programs, where the cell allows it
+    std::vector<std::uint16_t> tools;   // numbers of those that may be used; empty: all of the cell
+    std::vector<WrittenJob> jobs;       // in the order of the pieces and their parts; none of a piece that does not fit
     bool operator==(const Project&) const = default;
 
     bool do_rules_hold() const { return !end_reason || is_finished(*end_reason); }

@@ -257,18 +257,18 @@ BeamState beam_from(const Json& json, const History& history) {
     return beam;
 }
 
-Json json_of(const SetupVerdict& verdict) {
+Json json_of(const SetupReview& review) {
     Json cuts = Json::array();
-    for (const CutVerdict& cut : verdict.cuts) cuts.push_back(json_of(cut));
-    return {{"done", verdict.is_done}, {"cuts_are_asked", verdict.are_cuts_asked}, {"cuts", cuts}};
+    for (const CutReview& cut : review.cuts) cuts.push_back(json_of(cut));
+    return {{"done", review.is_done}, {"cuts_are_asked", review.are_cuts_asked}, {"cuts", cuts}};
 }
 
-SetupVerdict verdict_from(const Json& json) {
-    SetupVerdict verdict;
-    for (const Json& cut : json.at("cuts")) verdict.cuts.push_back(cut_verdict_from(cut));
-    verdict.is_done = json.at("done").get<bool>();
-    verdict.are_cuts_asked = json.at("cuts_are_asked").get<bool>();
-    return verdict;
+SetupReview review_from(const Json& json) {
+    SetupReview review;
+    for (const Json& cut : json.at("cuts")) review.cuts.push_back(cut_review_from(cut));
+    review.is_done = json.at("done").get<bool>();
+    review.are_cuts_asked = json.at("cuts_are_asked").get<bool>();
+    return review;
 }
 
 Project from_json(const Json& json) {
@@ -295,7 +295,7 @@ Project from_json(const Json& json) {
         throw InputError(InputFault::config, "its list of discarded pieces is not that of its decisions");
     }
     if (json.contains("beam")) project.beam = beam_from(json.at("beam"), project.history);
-    if (json.contains("verdict")) project.verdict = verdict_from(json.at("verdict"));
+    if (json.contains("verdict")) project.review = review_from(json.at("verdict"));
     project.pieces = solids_from(json.at("pieces"));
     project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -327,7 +327,7 @@ std::string to_json(const Project& project) {
     if (project.load) json["load"] = json_of(*project.load);
     if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.beam) json["beam"] = json_of(*project.beam);
-    if (project.verdict) json["verdict"] = json_of(*project.verdict);
+    if (project.review) json["verdict"] = json_of(*project.review);
     for (const RevertedTrial& trial : project.reverted) json["reverted"].push_back(json_of(trial));
     return text_of(json) + "\n";
 }

@@ -109,20 +109,20 @@ std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t t
 
 namespace {
 
-std::string percent(const CarvedSurface& surface) {
+std::string percent(const MilledSurface& surface) {
     return fixed(100 * surface.share(), 2);
 }
 
 // What follows "cut 7 of piece K: ".
-std::string outcome_of(const CutVerdict& v) {
+std::string outcome_of(const CutReview& v) {
     const std::string now =
         percent(v.before) + " % of what is left of its pieces is out of reach of the setups, more than expected";
-    if (v.outcome == VerdictOutcome::carries_cut) {
+    if (v.outcome == ReviewOutcome::carries_cut) {
         return now + "; it carries other cuts, which another plane would take back; kept";
     }
-    if (v.outcome == VerdictOutcome::decided) return now + "; you decided it, or a piece of it or of a later cut; kept";
+    if (v.outcome == ReviewOutcome::decided) return now + "; you decided it, or a piece of it or of a later cut; kept";
     if (v.planes == 0) return now + "; no other plane keeps the rules that hold; kept";
-    if (v.outcome == VerdictOutcome::replaced) {
+    if (v.outcome == ReviewOutcome::replaced) {
         return "by their setups another plane leaves " + percent(v.best) + " instead of " + percent(v.before) +
                " % of its pieces out of reach; taken";
     }
@@ -132,9 +132,9 @@ std::string outcome_of(const CutVerdict& v) {
 
 }  // namespace
 
-std::vector<std::string> verdict_lines(const SetupVerdict& verdict) {
+std::vector<std::string> review_lines(const SetupReview& review) {
     std::vector<std::string> lines;
-    for (const CutVerdict& v : verdict.cuts) {
+    for (const CutReview& v : review.cuts) {
         lines.push_back("cut " + std::to_string(v.cut) + " of piece " + v.piece + ": " + outcome_of(v));
     }
     return lines;

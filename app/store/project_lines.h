@@ -41,6 +41,6 @@ std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t t
 
 // "cut 7 of piece K: by their setups another plane leaves 3.1 instead of 10.9 % of its pieces out of reach; taken".
 // One per cut that was asked.
-std::vector<std::string> verdict_lines(const SetupVerdict& verdict);
+std::vector<std::string> review_lines(const SetupReview& review);
 
 }  // namespace qchopper

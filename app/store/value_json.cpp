@@ -23,24 +23,24 @@ constexpr EnumName<CandidateNormals> normals_names[] = {{CandidateNormals::box, 
 constexpr EnumName<ConnectorForm> connector_names[] = {{ConnectorForm::spread, "spread"},
                                                        {ConnectorForm::ratio, "ratio"}};
 
-constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced, "replaced"},
-                                                      {VerdictOutcome::kept, "kept"},
-                                                      {VerdictOutcome::carries_cut, "carries_cut"},
-                                                      {VerdictOutcome::decided, "decided"}};
+constexpr EnumName<ReviewOutcome> outcome_names[] = {{ReviewOutcome::replaced, "replaced"},
+                                                     {ReviewOutcome::kept, "kept"},
+                                                     {ReviewOutcome::carries_cut, "carries_cut"},
+                                                     {ReviewOutcome::decided, "decided"}};
 
 double length_from(double length, double least) {
     constexpr double most = 1e15;
     if (length >= least && length <= most) return length;
     throw InputError(InputFault::config, "a length of its print volume or of connectors is impossible");
 }
-constexpr double least_length = 1e-9;
-constexpr double least_spacing = 0.1;  // a finer grid would exceed any memory
+constexpr double min_length = 1e-9;
+constexpr double min_spacing = 0.1;  // a finer grid would exceed any memory
 
-Json json_of(const CarvedSurface& s) {
+Json json_of(const MilledSurface& s) {
     return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
 }
 
-CarvedSurface carved_surface_from(const Json& json) {
+MilledSurface milled_surface_from(const Json& json) {
     return {json.at("unreachable_mm2").get<double>(), json.at("area_mm2").get<double>()};
 }
 
@@ -217,14 +217,14 @@ SearchSettings settings_from(const Json& json) {
     if (json.contains("print_volume_mm")) {
         const Vec3 box = vec3_from(json.at("print_volume_mm"));
         s.objectives.print_volume =
-            Vec3{length_from(box.x, least_length), length_from(box.y, least_length), length_from(box.z, least_length)};
+            Vec3{length_from(box.x, min_length), length_from(box.y, min_length), length_from(box.z, min_length)};
     }
     if (json.contains("connector")) {
         const Json& c = json.at("connector");
         s.objectives.connector = {
-            value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm").get<double>(), least_length),
-            length_from(c.at("depth_mm").get<double>(), least_length), length_from(c.at("wall_mm").get<double>(), 0),
-            length_from(c.at("spacing_mm").get<double>(), least_spacing)};
+            value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm").get<double>(), min_length),
+            length_from(c.at("depth_mm").get<double>(), min_length), length_from(c.at("wall_mm").get<double>(), 0),
+            length_from(c.at("spacing_mm").get<double>(), min_spacing)};
     }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);
@@ -284,22 +284,22 @@ Cut cut_from(const Json& json) {
     return cut;
 }
 
-Json json_of(const CutVerdict& verdict) {
-    return {{"cut", verdict.cut},
-            {"piece", verdict.piece},
-            {"outcome", name_of_value(outcome_names, verdict.outcome)},
-            {"planes", verdict.planes},
-            {"before", json_of(verdict.before)},
-            {"best", json_of(verdict.best)}};
+Json json_of(const CutReview& review) {
+    return {{"cut", review.cut},
+            {"piece", review.piece},
+            {"outcome", name_of_value(outcome_names, review.outcome)},
+            {"planes", review.planes},
+            {"before", json_of(review.before)},
+            {"best", json_of(review.best)}};
 }
 
-CutVerdict cut_verdict_from(const Json& json) {
+CutReview cut_review_from(const Json& json) {
     return {json.at("cut").get<std::int32_t>(),
             json.at("piece").get<std::string>(),
             value_of_name(outcome_names, json.at("outcome").get<std::string>()),
             json.at("planes").get<std::size_t>(),
-            carved_surface_from(json.at("before")),
-            carved_surface_from(json.at("best"))};
+            milled_surface_from(json.at("before")),
+            milled_surface_from(json.at("best"))};
 }
 
 std::string text_of(const Json& document) {

@@ -22,7 +22,7 @@ nlohmann::ordered_json json_of(const NoCutSurface& no_cut);
 nlohmann::ordered_json json_of(const SymmetryPlane& symmetry);
 nlohmann::ordered_json json_of(const SearchSettings& settings);
 nlohmann::ordered_json json_of(const Cut& cut);
-nlohmann::ordered_json json_of(const CutVerdict& verdict);
+nlohmann::ordered_json json_of(const CutReview& review);
 
 // What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
 void add_scan(nlohmann::ordered_json& document, const Project& project);
@@ -32,7 +32,7 @@ Weights weights_from(const nlohmann::ordered_json& json);
 SolidRecord solid_from(const nlohmann::ordered_json& json);
 SearchSettings settings_from(const nlohmann::ordered_json& json);
 Cut cut_from(const nlohmann::ordered_json& json);
-CutVerdict cut_verdict_from(const nlohmann::ordered_json& json);
+CutReview cut_review_from(const nlohmann::ordered_json& json);
 
 // The text of a document, indented by one space a level; bytes that are not UTF-8 are replaced. No line end.
 std::string text_of(const nlohmann::ordered_json& document);

@@ -18,7 +18,7 @@
 namespace qchopper {
 namespace {
 
-constexpr zip_int64_t most_entries = 1000;
+constexpr zip_int64_t max_entries = 1000;
 
 struct DiscardArchive {
     void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -272,8 +272,8 @@ Bytes zip(const std::vector<ZipEntry>& entries) {
         if (!entry.is_packed) total += readings.back()->size;
         add(archive.get(), *readings.back());
     }
-    constexpr std::uint64_t most_beside_an_entry = 512;  // headers and names, of names that are not long
-    writing.bytes.reserve(total + most_beside_an_entry * (entries.size() + 1));
+    constexpr std::uint64_t max_beside_an_entry = 512;  // headers and names, of names that are not long
+    writing.bytes.reserve(total + max_beside_an_entry * (entries.size() + 1));
     const bool is_closed = zip_close(archive.get()) == 0;
     if (failure) std::rethrow_exception(failure);
     must(is_closed);
@@ -306,7 +306,7 @@ std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source
     static_cast<void>(whole.release());
 
     const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
-    if (count > most_entries) refuse(source, "it has more than " + std::to_string(most_entries) + " entries");
+    if (count > max_entries) refuse(source, "it has more than " + std::to_string(max_entries) + " entries");
     std::map<std::string, Bytes> entries;
     std::uint64_t total = 0;
     for (zip_int64_t i = 0; i < count; ++i) {

@@ -10,10 +10,10 @@
 namespace qchopper {
 namespace {
 
-std::vector<std::uint16_t> numbers_of(const std::vector<CarvingTool>& tools) {
+std::vector<std::uint16_t> numbers_of(const std::vector<CuttingTool>& tools) {
     std::vector<std::uint16_t> numbers;
     numbers.reserve(tools.size());
-    for (const CarvingTool& tool : tools) numbers.push_back(tool.number);
+    for (const CuttingTool& tool : tools) numbers.push_back(tool.number);
     return numbers;
 }
 
@@ -40,11 +40,11 @@ Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers) {
                          "name some of its " + describe_tools(listed));
     }
     Cell allowed = cell;
-    std::vector<CarvingTool>& tools = allowed.machine->tools;
-    std::erase_if(tools, [&](const CarvingTool& tool) {
+    std::vector<CuttingTool>& tools = allowed.machine->tools;
+    std::erase_if(tools, [&](const CuttingTool& tool) {
         return std::find(numbers.begin(), numbers.end(), tool.number) == numbers.end();
     });
-    if (std::none_of(tools.begin(), tools.end(), [](const CarvingTool& t) { return t.shape == ToolShape::ball; })) {
+    if (std::none_of(tools.begin(), tools.end(), [](const CuttingTool& t) { return t.shape == ToolShape::ball; })) {
         throw InputError(InputFault::use,
                          "of " + describe_tools(numbers) + " none is ball-ended, and others do not finish",
                          "name a ball-ended one too");

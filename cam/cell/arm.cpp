@@ -106,7 +106,7 @@ struct Forearm {
     double bend;    // angle between the axis of the forearm and the line to the wrist centre
 };
 
-// What all branches of one inverse have in common.
+// What all configurations of one inverse have in common.
 struct InverseQuery {
     const ArmGeometry& arm;
     Forearm forearm;
@@ -115,16 +115,18 @@ struct InverseQuery {
     double free_4;  // angle 4 of the neighbour
 };
 
-void add(const ArmGeometry& arm, const std::array<double, axes_of_arm>& angles, ArmBranch branch, ArmAnswers& answers) {
+void add(const ArmGeometry& arm, const std::array<double, axes_of_arm>& angles, ArmConfiguration configuration,
+         ArmAnswers& answers) {
     ArmAnswer answer;
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) answer.joints[axis] = joint_of(arm, angles[axis], axis);
-    answer.branch = branch;
+    answer.configuration = configuration;
     answers.push_back(answer);
 }
 
-// Both wrist branches. W = forearm^T * flange = Rz(t4) Ry(t5) Rz(t6); its last column gives t4 and t5, and the second
-// row of Rz(-t4) W is sin t6, cos t6, 0.
-void add_wrists(const InverseQuery& query, double t1, double t2, double t3, ArmBranch branch, ArmAnswers& answers) {
+// Both wrist configurations. W = forearm^T * flange = Rz(t4) Ry(t5) Rz(t6); its last column gives t4 and t5, and the
+// second row of Rz(-t4) W is sin t6, cos t6, 0.
+void add_wrists(const InverseQuery& query, double t1, double t2, double t3, ArmConfiguration configuration,
+                ArmAnswers& answers) {
     const Columns base{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const Columns forearm = turned_about_y(turned_about_z(base, t1), t2 + t3);
     const double w13 = dot(forearm.x, query.flange.z);
@@ -138,17 +140,17 @@ void add_wrists(const InverseQuery& query, double t1, double t2, double t3, ArmB
     const double t5 = std::atan2(c4 * w13 + s4 * w23, w33);
     const Vec3 wrist_y = c4 * forearm.y - s4 * forearm.x;
     const double t6 = std::atan2(dot(wrist_y, query.flange.x), dot(wrist_y, query.flange.y));
-    add(query.arm, {t1, t2, t3, t4, t5, t6}, branch, answers);
-    branch.is_wrist_flipped = true;
+    add(query.arm, {t1, t2, t3, t4, t5, t6}, configuration, answers);
+    configuration.is_wrist_flipped = true;
     if (is_singular)
-        add(query.arm, {t1, t2, t3, t4, t5, t6}, branch, answers);
+        add(query.arm, {t1, t2, t3, t4, t5, t6}, configuration, answers);
     else
-        add(query.arm, {t1, t2, t3, t4 + pi, -t5, t6 + pi}, branch, answers);
+        add(query.arm, {t1, t2, t3, t4 + pi, -t5, t6 + pi}, configuration, answers);
 }
 
-// Both elbow branches; none if the triangle of upper arm and forearm does not close. x: of the wrist centre from
+// Both elbow configurations; none if the triangle of upper arm and forearm does not close. x: of the wrist centre from
 // axis 2.
-void add_elbows(const InverseQuery& query, double t1, double x, ArmBranch branch, ArmAnswers& answers) {
+void add_elbows(const InverseQuery& query, double t1, double x, ArmConfiguration configuration, ArmAnswers& answers) {
     const double upper = query.arm.c2;
     const double fore = query.forearm.length;
     const double z = query.height;
@@ -160,8 +162,9 @@ void add_elbows(const InverseQuery& query, double t1, double x, ArmBranch branch
     const double at_shoulder = std::atan2(fore * sine, upper + fore * cosine);
     const double to_centre = std::atan2(x, z);
     for (const int side : {1, -1}) {
-        branch.is_elbow_negative = side < 0;
-        add_wrists(query, t1, to_centre - side * at_shoulder, side * at_elbow - query.forearm.bend, branch, answers);
+        configuration.is_elbow_negative = side < 0;
+        add_wrists(query, t1, to_centre - side * at_shoulder, side * at_elbow - query.forearm.bend, configuration,
+                   answers);
     }
 }
 
@@ -224,13 +227,13 @@ Pose forward(const ArmGeometry& arm, const Joints& joints) {
     return {{Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}}, frames.tip};
 }
 
-ArmBranch branch_of(const ArmGeometry& arm, const Joints& joints) {
+ArmConfiguration configuration_of(const ArmGeometry& arm, const Joints& joints) {
     const ArmFrames frames = frames_of(arm, joints);
-    ArmBranch branch;
-    branch.is_back = dot(frames.wrist_centre, frames.shoulder.x) < 0;
-    branch.is_elbow_negative = std::sin(angle_of(arm, joints, 2) + Forearm(arm).bend) < 0;
-    branch.is_wrist_flipped = std::sin(angle_of(arm, joints, 4)) < 0;
-    return branch;
+    ArmConfiguration configuration;
+    configuration.is_back = dot(frames.wrist_centre, frames.shoulder.x) < 0;
+    configuration.is_elbow_negative = std::sin(angle_of(arm, joints, 2) + Forearm(arm).bend) < 0;
+    configuration.is_wrist_flipped = std::sin(angle_of(arm, joints, 4)) < 0;
+    return configuration;
 }
 
 ArmAnswers inverse(const ArmGeometry& arm, const Pose& flange, const Joints& neighbour) {

@@ -55,22 +55,22 @@ using JointRanges = std::array<JointRange, axes_of_arm>;
 Pose forward(const ArmGeometry& arm, const Joints& joints);
 
 // Which of the eight ways to hold a pose. Two of them meet at each singularity, and there rounding decides.
-struct ArmBranch {
+struct ArmConfiguration {
     bool is_back = false;            // the arm bends backwards over axis 1 to the wrist centre
     bool is_elbow_negative = false;  // angle of axis 3 + atan2(a2, c3), in -pi..pi, is negative
     bool is_wrist_flipped = false;   // angle of axis 5, in -pi..pi, is negative
-    bool operator==(const ArmBranch&) const = default;
+    bool operator==(const ArmConfiguration&) const = default;
 };
 
-// The branch of finite joints.
-ArmBranch branch_of(const ArmGeometry& arm, const Joints& joints);
+// The configuration of finite joints.
+ArmConfiguration configuration_of(const ArmGeometry& arm, const Joints& joints);
 
 struct ArmAnswer {
     Joints joints{};
-    ArmBranch branch;
+    ArmConfiguration configuration;
 };
 
-// At most one answer for each branch.
+// At most one answer for each configuration.
 class ArmAnswers {
  public:
     std::size_t size() const { return size_; }
@@ -99,8 +99,8 @@ class ArmAnswers {
 //
 // Where the pose leaves joints free, `neighbour` decides, the joints of a pose nearby. At the wrist's singularity (sine
 // of angle 5 below 1e-9) joint 4 is that of the neighbour and joint 6 follows; at the shoulder's (wrist centre within
-// 1e-9 mm of axis 1) joint 1 of the front is that of the neighbour. The two wrist branches are then the same joints, as
-// are the two elbow branches of a stretched arm.
+// 1e-9 mm of axis 1) joint 1 of the front is that of the neighbour. The two wrist configurations are then the same
+// joints, as are the two elbow configurations of a stretched arm.
 ArmAnswers inverse(const ArmGeometry& arm, const Pose& flange, const Joints& neighbour = {});
 
 // The answers of inverse() of which each joint, by whole turns, can lie in its range less `margin` (radians) at both

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 #include "cam/cell/material.h"
 #include "cam/cell/origin.h"
 #include "cam/cell/robot.h"
@@ -38,7 +38,7 @@ struct Table {
 // A block of the workshop's stock.
 struct Stock {
     std::string name;
-    Vec3 size;  // before a quarter turn (CarvingBlock::is_turned)
+    Vec3 size;  // before a quarter turn (StockBlock::is_turned)
     Material material = Material::unspecified;
     bool is_sawn = false;                         // may be sawn down to any smaller size
     double kerf = 0;                              // width of foam that a saw cut takes
@@ -122,12 +122,12 @@ struct LoadTolerance {
     bool operator==(const LoadTolerance&) const = default;
 };
 
-// What carves in the cell.
+// What mills in the cell.
 struct CellMachine {
-    std::optional<Robot> robot;  // nothing: a gantry of three axes, whose travel is Cell::reach
+    std::optional<Robot> robot;  // nothing: a gantry of three axes, whose travel is Cell::workspace
     Spindle spindle;
     std::optional<Extraction> extraction;
-    std::vector<CarvingTool> tools;           // at least one
+    std::vector<CuttingTool> tools;           // at least one
     std::optional<RotaryTable> rotary_table;  // nothing: the table is fixed
     double max_tilt = 0;                      // of the tool axis from the vertical, radians
     double max_unreachable = 0.02;            // share of a piece's area without its base, 0..1
@@ -142,7 +142,7 @@ struct CellMachine {
 struct Cell {
     std::string name;
     std::uint16_t id = 0;  // CELL_ID on the wire, 1..65535
-    Box reach;             // what the tool tip reaches
+    Box workspace;         // what the tool tip reaches
     Table table;
     std::vector<Stock> stock;
     Margins margins;

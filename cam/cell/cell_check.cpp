@@ -91,7 +91,7 @@ CellCheck check_cell(const Cell& cell) {
     }
     check.missing = missing_of(cell);
     if (!cell.machine) return check;
-    for (const CarvingTool& tool : cell.machine->tools) {
+    for (const CuttingTool& tool : cell.machine->tools) {
         if (tool.is_length_measured) continue;
         check.against_dispatch.push_back("tool " + std::to_string(tool.number) + ": its length is not measured");
     }

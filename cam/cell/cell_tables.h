@@ -34,10 +34,10 @@ AngleRange read_angle_range(const TomlReader& reader, std::string_view key);
 
 // Of the cell's outermost table.
 Robot read_robot(const TomlReader& root, Origins& origins);
-StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& reach);
-std::vector<CarvingTool> read_tools(const TomlReader& root, Origins& origins);
+StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& workspace);
+std::vector<CuttingTool> read_tools(const TomlReader& root, Origins& origins);
 // Precondition: at least one tool.
-Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, const std::vector<CarvingTool>& tools,
+Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, const std::vector<CuttingTool>& tools,
                      Dialect dialect, Origins& origins);
 std::optional<Extraction> read_extraction(const TomlReader& root, Dialect dialect);
 ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& origins);

@@ -6,7 +6,7 @@
 
 namespace qchopper {
 
-Tool job_tool(const CarvingTool& tool) {
+Tool job_tool(const CuttingTool& tool) {
     return {tool.number,
             tool.name,
             tool.diameter,
@@ -18,7 +18,7 @@ Tool job_tool(const CarvingTool& tool) {
 std::vector<Tool> tools_of(const Cell& cell) {
     if (!cell.machine) return {cell.tool};
     std::vector<Tool> tools;
-    for (const CarvingTool& tool : cell.machine->tools) tools.push_back(job_tool(tool));
+    for (const CuttingTool& tool : cell.machine->tools) tools.push_back(job_tool(tool));
     return tools;
 }
 

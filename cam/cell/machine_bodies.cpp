@@ -51,7 +51,7 @@ Cylinder along_axis(double front, double length, double radius) {
 
 }  // namespace
 
-std::vector<AxisBody> bodies_on_axis(const CarvingTool& tool, const Spindle& spindle) {
+std::vector<AxisBody> bodies_on_axis(const CuttingTool& tool, const Spindle& spindle) {
     std::vector<AxisBody> bodies{{BodyPart::tool, along_axis(0, tool.stick_out, 0.5 * tool.diameter)}};
     double above = tool.stick_out;
     for (const HolderStep& step : tool.holder) {
@@ -81,7 +81,7 @@ LinkMotions link_motions(const ArmGeometry& arm, const Joints& joints, const Pos
     return motions;
 }
 
-MovingBodies bodies_at(const Cell& cell, const CarvingTool& tool, const Joints& joints, Vec3 gantry_tip) {
+MovingBodies bodies_at(const Cell& cell, const CuttingTool& tool, const Joints& joints, Vec3 gantry_tip) {
     assert(cell.machine);
     const CellMachine& machine = *cell.machine;
     MovingBodies bodies{{}, bodies_on_axis(tool, machine.spindle)};

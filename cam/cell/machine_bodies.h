@@ -41,7 +41,7 @@ struct MovingBodies {
 
 // Tool, holder and spindle in a frame with its origin at the tip and z out of the spindle. The tool reaches from the
 // tip to its stick-out with its whole diameter.
-std::vector<AxisBody> bodies_on_axis(const CarvingTool& tool, const Spindle& spindle);
+std::vector<AxisBody> bodies_on_axis(const CuttingTool& tool, const Spindle& spindle);
 
 // The links k = 0..6 for joints: from where a point lay in the base while the arm stood straight up, all angles zero,
 // to where it is in the cell.
@@ -50,7 +50,7 @@ LinkMotions link_motions(const ArmGeometry& arm, const Joints& joints, const Pos
 
 // All that moves. A gantry has no links, and `joints` are not used: its tip is at `gantry_tip`.
 // Precondition: the cell has a machine. Allocates: for pictures and reports, not for every pose of a search.
-MovingBodies bodies_at(const Cell& cell, const CarvingTool& tool, const Joints& joints, Vec3 gantry_tip = {});
+MovingBodies bodies_at(const Cell& cell, const CuttingTool& tool, const Joints& joints, Vec3 gantry_tip = {});
 
 // What stands still. A table is solid from its top down to the floor.
 struct StandingBodies {

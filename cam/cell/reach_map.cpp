@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double joint_margin = 3 * pi / 180;
-constexpr double most_squares = 500;  // in a row or column
+constexpr double max_squares = 500;  // in a row or column
 
 JointRange narrowed(JointRange range, AngleRange limits) {
     range.min = std::max(range.min, limits.min);
@@ -61,7 +61,7 @@ struct Area {
 };
 
 Area fixed_area(const Cell& cell) {
-    Area area{{cell.reach.min.x, cell.reach.max.x}, {cell.reach.min.z, cell.reach.max.z}};
+    Area area{{cell.workspace.min.x, cell.workspace.max.x}, {cell.workspace.min.z, cell.workspace.max.z}};
     const Table& table = cell.table;
     area.add({table.centre_x - table.size_x / 2, 0, table.height});
     area.add({table.centre_x + table.size_x / 2, 0, table.height});
@@ -91,7 +91,7 @@ ReachSection section_of(const Area& area, double y, double step) {
     const double extent = std::max(area.x.max - area.x.min, area.z.max - area.z.min);
     ReachSection section;
     section.y = y;
-    section.step = std::max(step, extent / most_squares);
+    section.step = std::max(step, extent / max_squares);
     const auto count = [&](const Interval& interval, double start) {
         return static_cast<std::size_t>(std::max(1.0, std::ceil((interval.max - start) / section.step)));
     };
@@ -154,7 +154,7 @@ bool is_in(const Box& box, Vec3 p) {
 
 }  // namespace
 
-ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CarvingTool& tool) {
+ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CuttingTool& tool) {
     ToolArm arm;
     arm.geometry = robot.geometry;
     arm.ranges = robot.ranges;
@@ -172,8 +172,8 @@ ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CarvingTool& 
 bool holds(const ToolArm& arm, Vec3 tip, double tilt, double azimuth) {
     const Pose cell_in_base = inverse(arm.base_in_cell);
     const Pose flange_in_tip = inverse(arm.tip_in_flange);
-    for (int turn = 0; turn < reach_tool_turns; ++turn) {
-        const Pose tip_pose = tip_in_cell(tip, tilt, azimuth, turn * 2 * pi / reach_tool_turns);
+    for (int turn = 0; turn < reach_redundancy_angles; ++turn) {
+        const Pose tip_pose = tip_in_cell(tip, tilt, azimuth, turn * 2 * pi / reach_redundancy_angles);
         const Pose flange = cell_in_base * (tip_pose * flange_in_tip);
         if (!inverse_within(arm.geometry, arm.ranges, arm.margin, flange).empty()) return true;
     }
@@ -197,7 +197,7 @@ ReachMap reach_map(const Cell& cell, const std::vector<double>& tilts, double st
     if (!cell.machine->robot) {
         for (const double tilt : tilts) {
             map.tilts.push_back(
-                reach_at(map.section, tilt, [&](Vec3 tip) { return tilt == 0 && is_in(cell.reach, tip) ? 1 : 0; }));
+                reach_at(map.section, tilt, [&](Vec3 tip) { return tilt == 0 && is_in(cell.workspace, tip) ? 1 : 0; }));
         }
         return map;
     }

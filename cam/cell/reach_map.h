@@ -16,8 +16,8 @@
 
 namespace qchopper {
 
-constexpr int reach_azimuths = 8;     // of a tilted axis, 45 degrees apart, the first along x; at tilt 0 there is one
-constexpr int reach_tool_turns = 12;  // about the tool axis, 30 degrees apart
+constexpr int reach_azimuths = 8;  // of a tilted axis, 45 degrees apart, the first along x; at tilt 0 there is one
+constexpr int reach_redundancy_angles = 12;  // about the tool axis, 30 degrees apart
 
 // An arm with a tool in its spindle.
 struct ToolArm {
@@ -30,9 +30,9 @@ struct ToolArm {
 
 // With the ranges of axes 4 and 6 narrowed to the cable limits, and a margin of 3 degrees. The tip lies gauge_length()
 // before the spindle nose on the tool axis: the stick-out and the steps of the holder.
-ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CarvingTool& tool);
+ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CuttingTool& tool);
 
-// Whether joints exist for the tip at a point, for at least one of the turns about the tool axis.
+// Whether joints exist for the tip at a point, for at least one of the redundancy angles.
 bool holds(const ToolArm& arm, Vec3 tip, double tilt, double azimuth);
 
 // Number of directions of the tool axis with a tilt in which the tip is held: of 1 at tilt 0, else of reach_azimuths.

@@ -18,9 +18,9 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_blocks = 1000;
-constexpr std::size_t most_obstacles = 1000;
-constexpr std::size_t most_dowels = 12;
+constexpr std::size_t max_blocks = 1000;
+constexpr std::size_t max_obstacles = 1000;
+constexpr std::size_t max_dowels = 12;
 
 // `name` is the table's, for messages.
 Box read_box(const TomlReader& reader, const std::string& name) {
@@ -34,21 +34,21 @@ Box read_box(const TomlReader& reader, const std::string& name) {
 }
 
 // The middle of the table's top must lie in the reach; the keys are those that give its height and its middle.
-void check_table(const TomlReader& reader, const Table& table, const Box& reach, const char* height,
+void check_table(const TomlReader& reader, const Table& table, const Box& workspace, const char* height,
                  const char* centre) {
-    if (table.height < reach.min.z) reader.refuse(height, "the table lies below the reach (reach.min z)");
-    if (table.height >= reach.max.z) reader.refuse(height, "the table lies above the reach (reach.max z)");
-    if (table.centre_x <= reach.min.x || table.centre_x >= reach.max.x || table.centre_y <= reach.min.y ||
-        table.centre_y >= reach.max.y) {
+    if (table.height < workspace.min.z) reader.refuse(height, "the table lies below the reach (reach.min z)");
+    if (table.height >= workspace.max.z) reader.refuse(height, "the table lies above the reach (reach.max z)");
+    if (table.centre_x <= workspace.min.x || table.centre_x >= workspace.max.x || table.centre_y <= workspace.min.y ||
+        table.centre_y >= workspace.max.y) {
         reader.refuse(centre, "the middle of the table lies outside of the reach");
     }
 }
 
-Table read_table(const TomlReader& reader, const Box& reach) {
+Table read_table(const TomlReader& reader, const Box& workspace) {
     const std::vector<double> centre = reader.numbers("centre", 2, -farthest_2, farthest_2);
     const std::vector<double> size = reader.numbers("size", 2, smallest, farthest_2);
     const Table table{centre[0], centre[1], size[0], size[1], reader.number("height", -farthest_2, farthest_2)};
-    check_table(reader, table, reach, "height", "centre");
+    check_table(reader, table, workspace, "height", "centre");
     return table;
 }
 
@@ -81,7 +81,7 @@ std::vector<Stock> read_stock(const TomlReader& reader, Origins& origins) {
         const bool twice =
             std::any_of(stock.begin(), stock.end(), [&](const Stock& other) { return other.name == block.name; });
         if (twice) row.refuse("name", "a second block named " + block.name, "give each block a name of its own");
-        if (stock.size() == most_blocks) reader.refuse("stock", "more than a thousand blocks");
+        if (stock.size() == max_blocks) reader.refuse("stock", "more than a thousand blocks");
         stock.push_back(block);
     }
     if (stock.empty()) reader.refuse("stock", "no block to carve from", "add at least one [[stock]]");
@@ -120,8 +120,8 @@ Link read_link(const TomlReader& reader, const std::filesystem::path& path) {
 RotaryTable read_rotary_table(const TomlReader& reader) {
     RotaryTable table;
     table.table_in_cell = read_pose(reader);
-    constexpr double most_lean = 1;  // degrees
-    if (table.table_in_cell.row[2].z < std::cos(most_lean * degree)) {
+    constexpr double max_lean = 1;  // degrees
+    if (table.table_in_cell.row[2].z < std::cos(max_lean * degree)) {
         reader.refuse("abc_deg", "the table's z must be upright within 1 degree: a block stands on it");
     }
     table.radius = reader.number("radius", smallest, farthest_2);
@@ -132,13 +132,13 @@ RotaryTable read_rotary_table(const TomlReader& reader) {
 
 void read_reach(const TomlReader& root, Cell& cell) {
     const TomlReader reach = root.table("reach", keys_2::reach.keys);
-    cell.reach = read_box(reach, "reach");
+    cell.workspace = read_box(reach, "reach");
     add_origins(reach, keys_2::reach, "reach", cell.origins);
 }
 
 void read_fixed_table(const TomlReader& root, Cell& cell) {
     const TomlReader reader = root.table("table", keys_2::table.keys);
-    cell.table = read_table(reader, cell.reach);
+    cell.table = read_table(reader, cell.workspace);
     add_origins(reader, keys_2::table, "table", cell.origins);
 }
 
@@ -154,7 +154,7 @@ void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
     const Vec3 centre = machine.rotary_table->table_in_cell.shift;
     const double side = std::numbers::sqrt2 * machine.rotary_table->radius;
     cell.table = {centre.x, centre.y, side, side, centre.z};
-    check_table(reader, cell.table, cell.reach, "position", "position");
+    check_table(reader, cell.table, cell.workspace, "position", "position");
     add_origins(reader, keys_2::rotary_table, "rotary_table", cell.origins);
 }
 
@@ -162,7 +162,7 @@ std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
     std::vector<Obstacle> obstacles;
     if (!root.has("obstacle")) return obstacles;
     for (const TomlReader& row : root.tables("obstacle", keys_2::obstacle.keys)) {
-        if (obstacles.size() == most_obstacles) root.refuse("obstacle", "more than a thousand obstacles");
+        if (obstacles.size() == max_obstacles) root.refuse("obstacle", "more than a thousand obstacles");
         obstacles.push_back({row.text("name"), read_box(row, "obstacle")});
         add_origins(row, keys_2::obstacle, "obstacle " + obstacles.back().name, origins);
     }
@@ -227,7 +227,7 @@ std::vector<DowelSize> read_dowels(const TomlReader& root) {
     for (const TomlReader& row : root.tables("dowel", keys_2::dowel.keys)) {
         const DowelSize size{row.number("diameter", 1, 200), row.number("depth", 1, 1'000),
                              row.number("wall", 0, 1'000)};
-        if (dowels.size() == most_dowels) root.refuse("dowel", "more than " + std::to_string(most_dowels) + " sizes");
+        if (dowels.size() == max_dowels) root.refuse("dowel", "more than " + std::to_string(max_dowels) + " sizes");
         if (!dowels.empty() && dowels.back().diameter <= size.diameter) {
             row.refuse("diameter", "is not smaller than the one before", "list the sizes of dowels largest first");
         }
@@ -251,7 +251,7 @@ void read_machine(const TomlReader& root, Cell& cell) {
     machine.extraction = read_extraction(root, machine.program.dialect);
     cell.stock = read_stock(root, origins);
     machine.obstacles = read_obstacles(root, origins);
-    machine.start = read_start(root, machine.robot, cell.reach);
+    machine.start = read_start(root, machine.robot, cell.workspace);
     read_room(root, cell);
     read_limits(root, machine, origins);
     cell.machine = std::move(machine);
@@ -267,7 +267,7 @@ void read_boxes(const TomlReader& root, Cell& cell) {
     }
     read_reach(root, cell);
     read_fixed_table(root, cell);
-    const std::vector<CarvingTool> tools = read_tools(root, cell.origins);
+    const std::vector<CuttingTool> tools = read_tools(root, cell.origins);
     if (tools.size() > 1) {
         root.refuse("tool", "a cell of which no machine is described has one tool, the one that its jobs name",
                     "keep the first [[tool]], or describe the machine by [spindle]");

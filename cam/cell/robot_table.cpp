@@ -10,8 +10,8 @@ namespace qchopper {
 namespace {
 
 constexpr double longest_link = 5'000;  // mm
-constexpr double most_turns = 720;      // degrees
-constexpr std::size_t most_capsules = 100;
+constexpr double max_turns = 720;       // degrees
+constexpr std::size_t max_capsules = 100;
 
 std::string axis_name(std::size_t axis) {
     return "axis " + std::to_string(axis + 1);
@@ -43,8 +43,8 @@ ArmGeometry read_geometry(const TomlReader& reader) {
 }
 
 JointRanges read_ranges(const TomlReader& reader) {
-    const Joints min = read_joints(reader, "min_deg", -most_turns, most_turns);
-    const Joints max = read_joints(reader, "max_deg", -most_turns, most_turns);
+    const Joints min = read_joints(reader, "min_deg", -max_turns, max_turns);
+    const Joints max = read_joints(reader, "max_deg", -max_turns, max_turns);
     const Joints speed = read_joints(reader, "speed_deg_per_s", smallest, 5'000);
     const Joints acceleration = read_joints(reader, "acceleration_deg_per_s2", smallest, 100'000);
     JointRanges ranges;
@@ -84,7 +84,7 @@ LinkCapsule read_capsule(const TomlReader& reader) {
 std::vector<LinkCapsule> read_capsules(const TomlReader& reader, Origins& origins) {
     std::vector<LinkCapsule> capsules;
     for (const TomlReader& row : reader.tables("capsule", keys_2::capsule.keys)) {
-        if (capsules.size() == most_capsules) reader.refuse("capsule", "more than a hundred capsules");
+        if (capsules.size() == max_capsules) reader.refuse("capsule", "more than a hundred capsules");
         capsules.push_back(read_capsule(row));
         add_origins(row, keys_2::capsule, "robot.capsule " + std::to_string(capsules.size()), origins);
     }
@@ -111,7 +111,7 @@ Pose read_pose(const TomlReader& reader) {
 }
 
 AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
-    const std::vector<double> range = reader.numbers(key, 2, -most_turns, most_turns);
+    const std::vector<double> range = reader.numbers(key, 2, -max_turns, max_turns);
     if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
     return {range[0] * degree, range[1] * degree};
 }
@@ -136,19 +136,19 @@ Robot read_robot(const TomlReader& root, Origins& origins) {
     return robot;
 }
 
-StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& reach) {
+StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& workspace) {
     const TomlReader reader = root.table("start", keys_2::start.keys);
     StartPose start;
     if (robot) {
         if (reader.has("tip")) reader.refuse("tip", "belongs to a gantry", "a robot starts from joints_deg");
-        start.joints = read_joints(reader, "joints_deg", -most_turns, most_turns);
+        start.joints = read_joints(reader, "joints_deg", -max_turns, max_turns);
         check_start(reader, start.joints, *robot);
         return start;
     }
     if (reader.has("joints_deg")) reader.refuse("joints_deg", "belongs to a robot", "a gantry starts from tip");
     start.tip = reader.vector("tip", -farthest_2, farthest_2);
     for (int axis = 0; axis < 3; ++axis) {
-        if (start.tip[axis] >= reach.min[axis] && start.tip[axis] <= reach.max[axis]) continue;
+        if (start.tip[axis] >= workspace.min[axis] && start.tip[axis] <= workspace.max[axis]) continue;
         reader.refuse("tip", "lies outside of the reach");
     }
     return start;

@@ -15,7 +15,7 @@
 namespace qchopper {
 namespace {
 
-constexpr int most_iterations = 100;
+constexpr int max_iterations = 100;
 constexpr double touching = 1e-9;  // mm
 constexpr double flat = 1e-5;      // mm; a tetrahedron this low has no inside
 constexpr double wanted_error = 0.1 * distance_error;
@@ -58,7 +58,7 @@ double square_outside(Vec3 from, Vec3 along, Vec3 half, double t) {
 }
 
 // The least value between two parameters between which no coordinate passes a side of the box.
-double least_between(Vec3 from, Vec3 along, Vec3 half, double t0, double t1) {
+double min_between(Vec3 from, Vec3 along, Vec3 half, double t0, double t1) {
     double slope = 0;      // of half the square at t0
     double curvature = 0;  // of half the square
     const double middle = 0.5 * (t0 + t1);
@@ -89,7 +89,7 @@ double segment_box_distance(Vec3 from, Vec3 to, Vec3 half) {
     std::sort(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(count));
     double least = square_outside(from, along, half, 1);
     for (std::size_t i = 0; i + 1 < count; ++i) {
-        least = std::min(least, least_between(from, along, half, at[i], at[i + 1]));
+        least = std::min(least, min_between(from, along, half, at[i], at[i + 1]));
     }
     return std::sqrt(least);
 }
@@ -228,7 +228,7 @@ double convex_distance(const A& a, const B& b) {
     if (norm(v) < touching) return 0;
     Simplex simplex;
     double lower = 0;
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < max_iterations; ++i) {
         const double length = norm(v);
         const Vec3 w = a(-v) - b(v);
         lower = std::max(lower, dot(v, w) / length);

@@ -10,7 +10,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t longest_name = 24;  // of a KRL program
-constexpr std::uint32_t most_signals = 8'192;
+constexpr std::uint32_t max_signals = 8'192;
 
 constexpr std::array<std::pair<const char*, SignalKind>, 3> signal_kinds{
     {{"output", SignalKind::output}, {"input", SignalKind::input}, {"call", SignalKind::call}}};
@@ -41,7 +41,7 @@ std::string read_identifier(const TomlReader& reader, std::string_view key) {
 std::string read_target(const TomlReader& reader, std::string_view key, SignalKind kind, Dialect dialect) {
     if (kind == SignalKind::call || dialect == Dialect::rapid) return read_identifier(reader, key);
     const std::uint32_t first = dialect == Dialect::krl ? 1 : 0;
-    return std::to_string(reader.whole(key, first, most_signals));
+    return std::to_string(reader.whole(key, first, max_signals));
 }
 
 std::optional<Signal> read_signal(const TomlReader& parent, const char* key, const TableKeys& table, Dialect dialect) {
@@ -75,9 +75,9 @@ ToolAxis read_tool_axis(const TomlReader& reader) {
 }
 
 void check_payload(const TomlReader& reader, double spindle_kg, const Robot& robot,
-                   const std::vector<CarvingTool>& tools) {
+                   const std::vector<CuttingTool>& tools) {
     double heaviest = 0;
-    for (const CarvingTool& tool : tools) heaviest = std::max(heaviest, tool.mass_kg);
+    for (const CuttingTool& tool : tools) heaviest = std::max(heaviest, tool.mass_kg);
     if (spindle_kg + heaviest > robot.payload_kg) {
         reader.refuse("mass_kg", "with the heaviest tool it is more than robot.payload_kg");
     }
@@ -121,7 +121,7 @@ const char* to_word(Dialect dialect) {
     return dialects[static_cast<std::size_t>(dialect)];
 }
 
-Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, const std::vector<CarvingTool>& tools,
+Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, const std::vector<CuttingTool>& tools,
                      Dialect dialect, Origins& origins) {
     const TomlReader reader = root.table("spindle", keys_2::spindle.keys);
     Spindle spindle;

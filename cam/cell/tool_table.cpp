@@ -14,10 +14,10 @@ constexpr double widest = 500;        // mm
 constexpr double longest = 2'000;     // mm
 constexpr double slowest_feed = 1;    // mm/s
 constexpr double fastest_feed = 500;  // mm/s
-constexpr std::size_t most_tools = 100;
-constexpr std::size_t most_steps = 20;
-constexpr double least_point_deg = 60;  // of a drill
-constexpr double most_point_deg = 170;
+constexpr std::size_t max_tools = 100;
+constexpr std::size_t max_steps = 20;
+constexpr double min_point_deg = 60;  // of a drill
+constexpr double max_point_deg = 170;
 
 constexpr std::array<const char*, 5> shapes{"ball", "flat", "bull", "cone", "drill"};  // in the order of ToolShape
 
@@ -34,7 +34,7 @@ void refuse_unless(const TomlReader& reader, std::string_view key, bool has_mean
     }
 }
 
-void read_profile(const TomlReader& reader, CarvingTool& tool) {
+void read_profile(const TomlReader& reader, CuttingTool& tool) {
     tool.shape = read_shape(reader);
     tool.diameter = reader.number("diameter", smallest, widest);
     const double radius = tool.diameter / 2;
@@ -44,7 +44,7 @@ void read_profile(const TomlReader& reader, CarvingTool& tool) {
     refuse_unless(reader, "tip_angle_deg", is_cone || is_drill(tool), tool.shape);
     if (tool.shape == ToolShape::ball) tool.corner_radius = radius;
     if (is_cone) tool.tip_angle = reader.number("tip_angle_deg", 1, 179) * degree;
-    if (is_drill(tool)) tool.tip_angle = reader.number("tip_angle_deg", least_point_deg, most_point_deg) * degree;
+    if (is_drill(tool)) tool.tip_angle = reader.number("tip_angle_deg", min_point_deg, max_point_deg) * degree;
     if (!is_bull && !reader.has("corner_radius")) return;
     tool.corner_radius = reader.number("corner_radius", is_bull ? smallest : 0, widest);
     if (tool.corner_radius >= radius) reader.refuse("corner_radius", "must be less than half the diameter");
@@ -54,14 +54,14 @@ std::vector<HolderStep> read_holder(const TomlReader& reader, double tool_diamet
     std::vector<HolderStep> holder;
     for (const auto& [diameter, length] : reader.pairs("holder", smallest, longest)) {
         if (diameter < tool_diameter) reader.refuse("holder", "a step of the holder is narrower than the tool");
-        if (holder.size() == most_steps) reader.refuse("holder", "more than twenty steps");
+        if (holder.size() == max_steps) reader.refuse("holder", "more than twenty steps");
         holder.push_back({diameter, length});
     }
     if (holder.empty()) reader.refuse("holder", "must have at least one step, [diameter, length]");
     return holder;
 }
 
-void read_lengths(const TomlReader& reader, CarvingTool& tool) {
+void read_lengths(const TomlReader& reader, CuttingTool& tool) {
     tool.flute_length = reader.number("flute_length", smallest, longest);
     tool.stick_out = reader.number("stick_out", smallest, longest);
     if (tool.stick_out < tool.flute_length) {
@@ -70,7 +70,7 @@ void read_lengths(const TomlReader& reader, CarvingTool& tool) {
     tool.holder = read_holder(reader, tool.diameter);
 }
 
-void read_windows(const TomlReader& reader, CarvingTool& tool) {
+void read_windows(const TomlReader& reader, CuttingTool& tool) {
     const std::vector<double> feed = reader.numbers("feed_mm_per_s", 2, slowest_feed, fastest_feed);
     const std::vector<double> rpm = reader.numbers("rpm", 2, 1, 65'535);
     constexpr const char* order = "the first number must be below the second";
@@ -83,8 +83,8 @@ void read_windows(const TomlReader& reader, CarvingTool& tool) {
     if (tool.rpm_min != rpm[0] || tool.rpm_max != rpm[1]) reader.refuse("rpm", "must be whole numbers");
 }
 
-CarvingTool read_tool_2(const TomlReader& reader) {
-    CarvingTool tool;
+CuttingTool read_tool_2(const TomlReader& reader) {
+    CuttingTool tool;
     tool.number = static_cast<std::uint16_t>(reader.whole("number", 0, 65'535));
     tool.name = reader.text("name");
     read_profile(reader, tool);
@@ -102,22 +102,22 @@ const char* to_word(ToolShape shape) {
     return shapes[static_cast<std::size_t>(shape)];
 }
 
-double point_height(const CarvingTool& tool) {
+double point_height(const CuttingTool& tool) {
     return 0.5 * tool.diameter / std::tan(0.5 * tool.tip_angle);
 }
 
-double gauge_length(const CarvingTool& tool) {
+double gauge_length(const CuttingTool& tool) {
     return std::accumulate(tool.holder.begin(), tool.holder.end(), tool.stick_out,
                            [](double sum, const HolderStep& step) { return sum + step.length; });
 }
 
-std::vector<CarvingTool> read_tools(const TomlReader& root, Origins& origins) {
-    std::vector<CarvingTool> tools;
+std::vector<CuttingTool> read_tools(const TomlReader& root, Origins& origins) {
+    std::vector<CuttingTool> tools;
     for (const TomlReader& row : root.tables("tool", keys_2::tool.keys)) {
-        if (tools.size() == most_tools) root.refuse("tool", "more than a hundred tools");
-        const CarvingTool read = read_tool_2(row);
+        if (tools.size() == max_tools) root.refuse("tool", "more than a hundred tools");
+        const CuttingTool read = read_tool_2(row);
         const bool is_second = std::any_of(tools.begin(), tools.end(),
-                                           [&](const CarvingTool& other) { return other.number == read.number; });
+                                           [&](const CuttingTool& other) { return other.number == read.number; });
         if (is_second) {
             row.refuse("number", "a second tool with the number " + std::to_string(read.number),
                        "give each tool a number of its own");

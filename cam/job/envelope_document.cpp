@@ -35,10 +35,10 @@ const char* key_of(PoseKind kind) {
     return keys[static_cast<std::size_t>(kind)];
 }
 
-const char* key_of(EnvelopeCure cure) {
+const char* key_of(Remedy remedy) {
     constexpr const char* keys[] = {"none",        "tool_turn", "branch",     "table_turn",
                                     "block_shift", "base",      "directions", "cut"};
-    return keys[static_cast<std::size_t>(cure)];
+    return keys[static_cast<std::size_t>(remedy)];
 }
 
 Json from_joints(const std::optional<Joints>& joints) {
@@ -48,19 +48,19 @@ Json from_joints(const std::optional<Joints>& joints) {
     return list;
 }
 
-Json from_pose(const EnvelopePose& pose) {
+Json from_pose(const ReachabilityPose& pose) {
     const bool has_direction = pose.kind != PoseKind::home && pose.kind != PoseKind::tool_change;
     return {{"kind", key_of(pose.kind)},
-            {"direction", has_direction ? Json(pose.direction + 1) : Json(nullptr)},
+            {"direction", has_direction ? Json(pose.orientation + 1) : Json(nullptr)},
             {"tip", has_direction ? from_rounded(pose.tip) : Json(nullptr)},
             {"tip_in_cell", from_rounded(pose.tip_in_cell)},
-            {"out_in_cell", from_rounded(pose.out_in_cell)},
+            {"out_in_cell", from_rounded(pose.tool_axis_in_cell)},
             {"table_angle_deg", rounded_degrees(pose.table_angle)},
-            {"tool_turn_deg", rounded_degrees(pose.tool_turn)},
+            {"tool_turn_deg", rounded_degrees(pose.redundancy_angle)},
             {"joints_deg", from_joints(pose.joints)}};
 }
 
-Json from_margin(const EnvelopeMargin& margin) {
+Json from_margin(const ReachabilityMargin& margin) {
     const CheckRule& rule = rule_of(margin.check);
     return {{"check", rule.key},
             {"name", rule.name},
@@ -74,14 +74,14 @@ Json from_margin(const EnvelopeMargin& margin) {
             {"pose", has_pose(margin) ? from_pose(margin.pose) : Json(nullptr)}};
 }
 
-Json from_region(const HeldRegion& region) {
-    return {{"direction", region.direction + 1},
+Json from_region(const RegionReachability& region) {
+    return {{"direction", region.orientation + 1},
             {"poses", region.poses},
             {"holds", region.holds},
-            {"back", region.branch.is_back},
-            {"elbow_negative", region.branch.is_elbow_negative},
-            {"wrist_flipped", region.branch.is_wrist_flipped},
-            {"tool_turn_deg", rounded_degrees(region.tool_turn)},
+            {"back", region.configuration.is_back},
+            {"elbow_negative", region.configuration.is_elbow_negative},
+            {"wrist_flipped", region.configuration.is_wrist_flipped},
+            {"tool_turn_deg", rounded_degrees(region.redundancy_angle)},
             {"relative_margin", rounded(region.relative)}};
 }
 
@@ -104,12 +104,12 @@ bool are_all_held(const Json& checks) {
     return all_held;
 }
 
-EnvelopeSummary to_summary(const Json& json) {
+ReachabilitySummary to_summary(const Json& json) {
     if (text(json, "format") != format_name) throw wrong("format", "is not a qchopper envelope");
     if (whole<std::uint32_t>(json, "schema") != schema_version) {
         throw wrong("schema", "is not " + std::to_string(schema_version) + ", the one that this program reads");
     }
-    EnvelopeSummary summary{text(json, "piece"), truth(json, "arm_checked"), truth(json, "holds"), {}};
+    ReachabilitySummary summary{text(json, "piece"), truth(json, "arm_checked"), truth(json, "holds"), {}};
     const Json& placement = member(json, "placement");
     summary.placement = {real(placement, "x"), real(placement, "y"), real(placement, "turn_rad"), {}};
     for (const Json& angle : items(placement, "table_angles_rad")) {
@@ -125,33 +125,33 @@ EnvelopeSummary to_summary(const Json& json) {
 }  // namespace
 
 std::string envelope_document(const JobInput& input) {
-    const WorkEnvelope& envelope = input.work_envelope;
+    const MachineReachability& reachability = input.machine_reachability;
     Json checks = Json::array();
-    for (const EnvelopeMargin& margin : envelope.margins) checks.push_back(from_margin(margin));
+    for (const ReachabilityMargin& margin : reachability.margins) checks.push_back(from_margin(margin));
     Json regions = Json::array();
-    for (const HeldRegion& region : envelope.regions) regions.push_back(from_region(region));
+    for (const RegionReachability& region : reachability.regions) regions.push_back(from_region(region));
     const Json json{
         {"format", format_name},
         {"schema", schema_version},
         {"piece", input.piece.name},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
-        {"arm_checked", envelope.is_arm_checked},
-        {"holds", envelope.holds()},
-        {"summary", describe_work_envelope(input.piece.name, envelope)},
-        {"cure", key_of(envelope.cure)},
-        {"tightest", envelope.is_arm_checked ? Json(rule_of(envelope.tightest().check).key) : Json(nullptr)},
+        {"arm_checked", reachability.is_arm_checked},
+        {"holds", reachability.holds()},
+        {"summary", describe_reachability(input.piece.name, reachability)},
+        {"cure", key_of(reachability.remedy)},
+        {"tightest", reachability.is_arm_checked ? Json(rule_of(reachability.tightest().check).key) : Json(nullptr)},
         {"placement", from_placement(input.setup.placement)},
-        {"poses", envelope.poses},
-        {"places", envelope.places},
+        {"poses", reachability.poses},
+        {"places", reachability.places},
         {"checks", checks},
         {"regions", regions}};
     return written(json);
 }
 
-EnvelopeSummary read_envelope_document(std::string_view text, const std::string& source) {
+ReachabilitySummary read_envelope_document(std::string_view text, const std::string& source) {
     try {
         const Json json = parsed(text);
-        EnvelopeSummary summary = to_summary(json);
+        ReachabilitySummary summary = to_summary(json);
         check_form(json, text);
         return summary;
     } catch (const std::runtime_error& error) {

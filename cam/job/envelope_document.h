@@ -1,4 +1,4 @@
-// Writes and reads the envelope report of a job, envelope.json: every check of every pose that carving needs, with its
+// Writes and reads the envelope report of a job, envelope.json: every check of every pose that milling needs, with its
 // margin, and the tightest pose of each.
 //
 // Rounded to 1e-6, so that the last digits of sines, which processors differ in, are not seen
@@ -18,7 +18,7 @@ namespace qchopper {
 std::string envelope_document(const JobInput& input);
 
 // What a reader compares with the manifest.
-struct EnvelopeSummary {
+struct ReachabilitySummary {
     std::string piece;
     bool is_arm_checked = false;
     bool holds = true;
@@ -27,6 +27,6 @@ struct EnvelopeSummary {
 
 // Throws InputError (mesh) naming `source` if a value is missing or of another kind, if a verdict contradicts its
 // margin, or if the text is not in the form that envelope_document writes.
-EnvelopeSummary read_envelope_document(std::string_view text, const std::string& source);
+ReachabilitySummary read_envelope_document(std::string_view text, const std::string& source);
 
 }  // namespace qchopper

@@ -16,9 +16,9 @@
 #include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 #include "cam/job/ticket.h"
-#include "cam/setup/envelope.h"
-#include "cam/setup/placement/work_envelope.h"
+#include "cam/setup/placement/machine_reachability.h"
 #include "cam/setup/setup.h"
+#include "cam/setup/stock_fit.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
@@ -37,12 +37,12 @@ struct JobInput {
     Sha256 scan_sha256;
     Cell cell;
     Setup setup;
-    EnvelopeReport envelope;
-    std::vector<Setup> alternatives;    // the other ways to lay the piece, best first
-    std::vector<SurfaceState> states;   // per triangle of the piece; empty: not known
-    double max_unreachable = 1;         // share beyond which dispatch asks for the operator's word
-    std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
-    WorkEnvelope work_envelope = {};    // of the setup
+    StockFit stock_fit;
+    std::vector<Setup> alternatives;                // the other ways to lay the piece, best first
+    std::vector<SurfaceState> states;               // per triangle of the piece; empty: not known
+    double max_unreachable = 1;                     // share beyond which dispatch asks for the operator's word
+    std::vector<std::string> warnings;              // of the project: "scaled by 0.5 on request"
+    MachineReachability machine_reachability = {};  // of the setup
     std::optional<ProgramInput> program = {};
     std::vector<DrawnCap> caps = {};                        // that are joined to other pieces, by their cuts
     std::string no_program_because = "none was asked for";  // for people; not used if there is a program
@@ -52,11 +52,11 @@ struct JobInput {
 struct Alternative {
     int base_number = 0;
     std::string base_description;
-    ReachMethod method = ReachMethod::sampled;
+    AccessMethod method = AccessMethod::sampled;
     double unreachable_share = 0;
-    double foam_mm3 = 0;     // mapped only
-    double residue_mm3 = 0;  // mapped only
-    Vec3 block;              // its size
+    double foam_mm3 = 0;           // mapped only
+    double rest_material_mm3 = 0;  // mapped only
+    Vec3 block;                    // its size
     std::uint32_t directions = 0;
     bool operator==(const Alternative&) const = default;
 };
@@ -84,7 +84,7 @@ struct ReadJob {
     std::string block_name;              // in the cell's list of stock
     std::vector<HalfSpace> half_spaces;  // in piece coordinates
     std::vector<JobCap> caps;            // that are joined to other pieces, by their cuts
-    EnvelopeReport envelope;
+    StockFit stock_fit;
     bool is_arm_checked = false;      // whether envelope.json tells of poses
     bool holds_poses = true;          // whether the machine holds all of them; true where they are not checked
     std::vector<Pose> setup_in_cell;  // of a rotary table one per direction, else one
@@ -102,7 +102,7 @@ struct ReadJob {
 // The state "unreachable": the tool leaves more of the surface than the limit allows, and dispatch asks for the
 // operator's word. Otherwise the state is "ready".
 inline bool is_unreachable(const Setup& setup, double max_unreachable) {
-    return setup.reach.unreachable_share() > max_unreachable;
+    return setup.access.unreachable_share() > max_unreachable;
 }
 
 }  // namespace qchopper

@@ -45,9 +45,9 @@ std::string not_drilled_because(const HalfSpace& half_space, const Setup& setup,
     if (!cell.machine) return "the cell file describes no machine";
     const Vec3 out = rotate(setup.piece_in_setup, -half_space.up());
     const double tilt = std::acos(std::clamp(out.z, -1.0, 1.0));
-    const double most_tilt = cell.machine->robot ? cell.machine->max_tilt : 0;
-    if (tilt <= most_tilt + 1e-6) return {};
-    return "the tool would lean by " + fixed(tilt / degree, 0) + " degrees, and " + fixed(most_tilt / degree, 0) +
+    const double max_tilt = cell.machine->robot ? cell.machine->max_tilt : 0;
+    if (tilt <= max_tilt + 1e-6) return {};
+    return "the tool would lean by " + fixed(tilt / degree, 0) + " degrees, and " + fixed(max_tilt / degree, 0) +
            " are allowed";
 }
 

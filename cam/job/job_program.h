@@ -18,24 +18,24 @@
 #include "base/files/file.h"
 #include "base/sha256.h"
 #include "cam/cell/cell.h"
-#include "cam/setup/drill_direction.h"
+#include "cam/setup/drill_orientation.h"
 
 namespace qchopper {
 
 // A file of moves of one tool from one direction.
 struct JobChunk {
     std::string file;
-    std::uint16_t tool = 0;     // its number in the cell file
-    std::size_t direction = 0;  // index in SurfaceReach::directions, with JobProgram::drilling behind them
-    std::uint64_t moves = 0;    // straight ones
-    double length_mm = 0;       // of the straight moves
-    Box box;                    // of the points that the tip moves to
+    std::uint16_t tool = 0;       // its number in the cell file
+    std::size_t orientation = 0;  // index in SurfaceAccess::orientations, with JobProgram::drilling behind them
+    std::uint64_t moves = 0;      // straight ones
+    double length_mm = 0;         // of the straight moves
+    Box box;                      // of the points that the tip moves to
     Vec3 first;
     Vec3 last;
     bool operator==(const JobChunk&) const = default;
 };
 
-// A piece whose program exceeds the controller's memory is carved by several jobs in one clamping: its parts.
+// A piece whose program exceeds the controller's memory is milled by several jobs in one clamping: its parts.
 struct JobPart {
     std::uint16_t number = 1;      // 1..count
     std::uint16_t count = 1;       // 1: undivided
@@ -43,7 +43,7 @@ struct JobPart {
     bool operator==(const JobPart&) const = default;
 };
 
-// Cuts that the program leaves out, because no hold of the arm carries them.
+// Cuts that the program leaves out, because no arm configuration takes them.
 struct MovesLeftOut {
     double length_mm = 0;
     std::string because;  // of the first ones, without a full stop; empty: none is left out
@@ -52,9 +52,9 @@ struct MovesLeftOut {
 
 // A ball-ended tool that may be used and that the program does not use along a direction of the setup, and why.
 struct ToolLeftOut {
-    std::optional<std::uint16_t> tool;     // CarvingTool::number; nothing: no tool at all
-    std::optional<std::size_t> direction;  // index in SurfaceReach::directions; nothing: along none of them
-    std::string because;                   // without a full stop
+    std::optional<std::uint16_t> tool;       // CuttingTool::number; nothing: no tool at all
+    std::optional<std::size_t> orientation;  // index in SurfaceAccess::orientations; nothing: along none of them
+    std::string because;                     // without a full stop
     bool operator==(const ToolLeftOut&) const = default;
 };
 
@@ -64,12 +64,12 @@ struct JobProgram {
     std::vector<std::string> files;  // all of the program, in the order in which they are loaded
     std::vector<JobChunk> chunks;    // in the order in which they run; at least one
     JobPart part;
-    std::vector<DrillDirection> drilling;  // of all parts: directions behind those of the setup
-    std::vector<std::size_t> holes;        // numbers of those that this program drills, ascending
-    double scallop_mm = 0;                 // scallop height that finishing was made for
-    double time_s = 0;                     // estimated, accelerations and tool changes included
-    std::vector<ToolLeftOut> left_out;     // of all parts
-    MovesLeftOut moves_left_out;           // of all parts
+    std::vector<DrillOrientation> drilling;  // of all parts: directions behind those of the setup
+    std::vector<std::size_t> holes;          // numbers of those that this program drills, ascending
+    double scallop_mm = 0;                   // scallop height that finishing was made for
+    double time_s = 0;                       // estimated, accelerations and tool changes included
+    std::vector<ToolLeftOut> left_out;       // of all parts
+    MovesLeftOut moves_left_out;             // of all parts
     bool operator==(const JobProgram&) const = default;
 };
 

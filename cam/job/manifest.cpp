@@ -24,41 +24,41 @@ constexpr const char* format_name = "qchopper job";
 
 constexpr double most = std::numeric_limits<double>::max();
 
-const char* to_word(ReachMethod method) {
-    return method == ReachMethod::mapped ? "mapped" : "sampled";
+const char* to_word(AccessMethod method) {
+    return method == AccessMethod::mapped ? "mapped" : "sampled";
 }
 
 const char* state_word(const Setup& setup, double max_unreachable) {
     return is_unreachable(setup, max_unreachable) ? "unreachable" : "ready";
 }
 
-Json from_direction(const SetupDirection& direction) {
-    return {{"out", from_vector(direction.out)},
-            {"tilt_deg", direction.tilt_deg},
-            {"gained_share", direction.gained_share},
-            {"depth_mm", direction.depth_mm}};
+Json from_direction(const ToolOrientation& orientation) {
+    return {{"out", from_vector(orientation.tool_axis)},
+            {"tilt_deg", orientation.tilt_deg},
+            {"gained_share", orientation.gained_share},
+            {"depth_mm", orientation.depth_mm}};
 }
 
-Json from_reach(const SurfaceReach& reach) {
+Json from_access(const SurfaceAccess& access) {
     Json directions = Json::array();
-    for (const SetupDirection& direction : reach.directions) directions.push_back(from_direction(direction));
-    Json json{{"method", to_word(reach.method)},
-              {"arm_checked", reach.is_arm_checked},
+    for (const ToolOrientation& orientation : access.orientations) directions.push_back(from_direction(orientation));
+    Json json{{"method", to_word(access.method)},
+              {"arm_checked", access.is_arm_checked},
               {"directions", directions},
-              {"further", reach.further ? from_direction(*reach.further) : Json(nullptr)},
-              {"area_mm2", reach.area_mm2},
-              {"hidden_mm2", reach.hidden_mm2},
-              {"steep_mm2", reach.steep_mm2},
-              {"holder_mm2", reach.holder_mm2},
-              {"too_narrow_mm2", reach.too_narrow_mm2},
-              {"steep_counts", reach.steep_counts},
-              {"narrow_counts", reach.narrow_counts},
-              {"unreachable_share", reach.unreachable_share()},
-              {"all_directions_share", reach.all_directions_share},
-              {"foam_mm3", reach.foam_mm3},
-              {"foam_depth_mm", reach.foam_depth_mm},
-              {"residue_mm3", reach.residue_mm3}};
-    if (reach.ignored_mm2 > 0) json["ignored_mm2"] = reach.ignored_mm2;
+              {"further", access.further ? from_direction(*access.further) : Json(nullptr)},
+              {"area_mm2", access.area_mm2},
+              {"hidden_mm2", access.hidden_mm2},
+              {"steep_mm2", access.steep_mm2},
+              {"holder_mm2", access.holder_mm2},
+              {"too_narrow_mm2", access.too_narrow_mm2},
+              {"steep_counts", access.steep_counts},
+              {"narrow_counts", access.narrow_counts},
+              {"unreachable_share", access.unreachable_share()},
+              {"all_directions_share", access.all_directions_share},
+              {"foam_mm3", access.foam_mm3},
+              {"foam_depth_mm", access.foam_depth_mm},
+              {"residue_mm3", access.rest_material_mm3}};
+    if (access.ignored_mm2 > 0) json["ignored_mm2"] = access.ignored_mm2;
     return json;
 }
 
@@ -70,7 +70,7 @@ Json from_alternatives(const std::vector<Alternative>& alternatives) {
                         {"method", to_word(other.method)},
                         {"unreachable_share", other.unreachable_share},
                         {"foam_mm3", other.foam_mm3},
-                        {"residue_mm3", other.residue_mm3},
+                        {"residue_mm3", other.rest_material_mm3},
                         {"block", from_vector(other.block)},
                         {"directions", other.directions}});
     }
@@ -110,7 +110,7 @@ Json from_setup(const JobInput& input) {
             {"base_mm2", setup.base_mm2},
             {"projected_area_mm2", setup.projected_area_mm2},
             {"workholding", setup.workholding ? from_workholding(*setup.workholding) : Json(nullptr)},
-            {"reach", from_reach(setup.reach)},
+            {"reach", from_access(setup.access)},
             {"warnings", setup.warnings}};
 }
 
@@ -125,12 +125,12 @@ Json from_half_spaces(const std::vector<HalfSpace>& half_spaces) {
     return list;
 }
 
-Json from_envelope(const EnvelopeReport& envelope) {
+Json from_envelope(const StockFit& stock_fit) {
     Json margins = Json::array();
-    for (const Margin& margin : envelope.margins) {
+    for (const Margin& margin : stock_fit.margins) {
         margins.push_back({{"name", margin.name}, {"mm", margin.mm}, {"problem", margin.problem}});
     }
-    return {{"fits", envelope.fits()}, {"margins", margins}};
+    return {{"fits", stock_fit.fits()}, {"margins", margins}};
 }
 
 Json from_stock(const JobInput& input) {
@@ -162,41 +162,41 @@ int base_number(const Json& object) {
     return static_cast<int>(whole_up_to(object, "base_number", std::numeric_limits<std::int32_t>::max()));
 }
 
-ReachMethod to_method(const Json& object) {
+AccessMethod to_method(const Json& object) {
     const std::string word = text(object, "method");
     if (word != "mapped" && word != "sampled") throw wrong("method", "is neither sampled nor mapped");
-    return word == "mapped" ? ReachMethod::mapped : ReachMethod::sampled;
+    return word == "mapped" ? AccessMethod::mapped : AccessMethod::sampled;
 }
 
-SetupDirection to_direction(const Json& json) {
-    SetupDirection direction{vector(json, "out"), real(json, "tilt_deg"), real(json, "gained_share"),
-                             real(json, "depth_mm")};
-    if (!(std::abs(norm(direction.out) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
-    return direction;
+ToolOrientation to_direction(const Json& json) {
+    ToolOrientation orientation{vector(json, "out"), real(json, "tilt_deg"), real(json, "gained_share"),
+                                real(json, "depth_mm")};
+    if (!(std::abs(norm(orientation.tool_axis) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
+    return orientation;
 }
 
-SurfaceReach to_reach(const Json& json) {
-    SurfaceReach reach;
-    reach.method = to_method(json);
-    reach.is_arm_checked = truth(json, "arm_checked");
-    for (const Json& direction : items(json, "directions")) reach.directions.push_back(to_direction(direction));
-    if (const Json& further = member(json, "further"); !further.is_null()) reach.further = to_direction(further);
-    reach.area_mm2 = not_negative(json, "area_mm2");
-    reach.hidden_mm2 = not_negative(json, "hidden_mm2");
-    reach.steep_mm2 = not_negative(json, "steep_mm2");
-    reach.holder_mm2 = not_negative(json, "holder_mm2");
-    reach.too_narrow_mm2 = not_negative(json, "too_narrow_mm2");
-    if (json.contains("ignored_mm2")) reach.ignored_mm2 = not_negative(json, "ignored_mm2");
-    reach.steep_counts = truth(json, "steep_counts");
-    reach.narrow_counts = truth(json, "narrow_counts");
-    reach.all_directions_share = not_negative(json, "all_directions_share");
-    reach.foam_mm3 = not_negative(json, "foam_mm3");
-    reach.foam_depth_mm = real(json, "foam_depth_mm");
-    reach.residue_mm3 = not_negative(json, "residue_mm3");
+SurfaceAccess to_access(const Json& json) {
+    SurfaceAccess access;
+    access.method = to_method(json);
+    access.is_arm_checked = truth(json, "arm_checked");
+    for (const Json& direction : items(json, "directions")) access.orientations.push_back(to_direction(direction));
+    if (const Json& further = member(json, "further"); !further.is_null()) access.further = to_direction(further);
+    access.area_mm2 = not_negative(json, "area_mm2");
+    access.hidden_mm2 = not_negative(json, "hidden_mm2");
+    access.steep_mm2 = not_negative(json, "steep_mm2");
+    access.holder_mm2 = not_negative(json, "holder_mm2");
+    access.too_narrow_mm2 = not_negative(json, "too_narrow_mm2");
+    if (json.contains("ignored_mm2")) access.ignored_mm2 = not_negative(json, "ignored_mm2");
+    access.steep_counts = truth(json, "steep_counts");
+    access.narrow_counts = truth(json, "narrow_counts");
+    access.all_directions_share = not_negative(json, "all_directions_share");
+    access.foam_mm3 = not_negative(json, "foam_mm3");
+    access.foam_depth_mm = real(json, "foam_depth_mm");
+    access.rest_material_mm3 = not_negative(json, "residue_mm3");
     const double stated = not_negative(json, "unreachable_share");
-    if (!(std::abs(stated - reach.unreachable_share()) <= 1e-9))
+    if (!(std::abs(stated - access.unreachable_share()) <= 1e-9))
         throw wrong("unreachable_share", "is not that of the areas");
-    return reach;
+    return access;
 }
 
 std::vector<Alternative> to_alternatives(const Json& json) {
@@ -224,7 +224,7 @@ std::vector<Pose> to_frames(const Json& json, const Setup& setup) {
     std::vector<Pose> frames;
     for (const Json& frame : items(json, "setup_in_cell")) frames.push_back(to_pose(frame, "setup_in_cell"));
     const std::size_t angles = setup.placement.table_angles.size();
-    if (angles != 0 && angles != setup.reach.directions.size()) {
+    if (angles != 0 && angles != setup.access.orientations.size()) {
         throw wrong("table_angles_rad", "is not one per direction");
     }
     if (frames.size() != std::max<std::size_t>(1, angles)) throw wrong("setup_in_cell", "is not one per angle");
@@ -262,7 +262,7 @@ Setup to_setup(const Json& json, const Json& stock) {
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
     const Json& workholding = member(json, "workholding");
     if (!workholding.is_null()) setup.workholding = to_workholding(workholding);
-    setup.reach = to_reach(member(json, "reach"));
+    setup.access = to_access(member(json, "reach"));
     setup.warnings = texts(json, "warnings");
     setup.block.stock = whole<std::uint16_t>(stock, "number");
     setup.block.size = vector(stock, "size");
@@ -273,14 +273,14 @@ Setup to_setup(const Json& json, const Json& stock) {
     return setup;
 }
 
-EnvelopeReport to_envelope(const Json& json) {
-    EnvelopeReport envelope;
+StockFit to_envelope(const Json& json) {
+    StockFit stock_fit;
     for (const Json& margin : items(json, "margins")) {
-        envelope.margins.push_back({text(margin, "name"), text(margin, "problem"), real(margin, "mm")});
+        stock_fit.margins.push_back({text(margin, "name"), text(margin, "problem"), real(margin, "mm")});
     }
-    if (envelope.margins.empty()) throw wrong("margins", "is empty");
-    if (truth(json, "fits") != envelope.fits()) throw wrong("fits", "contradicts the margins");
-    return envelope;
+    if (stock_fit.margins.empty()) throw wrong("margins", "is empty");
+    if (truth(json, "fits") != stock_fit.fits()) throw wrong("fits", "contradicts the margins");
+    return stock_fit;
 }
 
 std::vector<HalfSpace> to_half_spaces(const Json& json) {
@@ -331,7 +331,7 @@ ReadJob to_job(const Json& json) {
         throw wrong("state", "contradicts the unreachable share and its limit");
     }
     job.block_name = text(member(json, "stock"), "name");
-    job.envelope = to_envelope(member(json, "envelope"));
+    job.stock_fit = to_envelope(member(json, "envelope"));
     const Json& poses = member(json, "work_envelope");
     job.is_arm_checked = truth(poses, "arm_checked");
     job.holds_poses = truth(poses, "holds");
@@ -353,9 +353,9 @@ ReadJob to_job(const Json& json) {
 std::vector<Alternative> alternatives_of(const JobInput& input) {
     std::vector<Alternative> alternatives;
     for (const Setup& other : input.alternatives) {
-        alternatives.push_back({other.base_number, other.base_description, other.reach.method,
-                                other.reach.unreachable_share(), other.reach.foam_mm3, other.reach.residue_mm3,
-                                other.block.size, static_cast<std::uint32_t>(other.reach.directions.size())});
+        alternatives.push_back({other.base_number, other.base_description, other.access.method,
+                                other.access.unreachable_share(), other.access.foam_mm3, other.access.rest_material_mm3,
+                                other.block.size, static_cast<std::uint32_t>(other.access.orientations.size())});
     }
     return alternatives;
 }
@@ -388,9 +388,9 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"alternatives", from_alternatives(alternatives_of(input))},
         {"max_unreachable", input.max_unreachable},
         {"state", state_word(input.setup, input.max_unreachable)},
-        {"envelope", from_envelope(input.envelope)},
+        {"envelope", from_envelope(input.stock_fit)},
         {"work_envelope",
-         {{"arm_checked", input.work_envelope.is_arm_checked}, {"holds", input.work_envelope.holds()}}},
+         {{"arm_checked", input.machine_reachability.is_arm_checked}, {"holds", input.machine_reachability.holds()}}},
         {"programs", from_program(input.program ? std::optional(input.program->program) : std::nullopt)},
         {"no_program_because", input.program ? std::string() : input.no_program_because},
         {"warnings", input.warnings},

@@ -23,7 +23,7 @@ Pose to_pose(const Json& json, const std::string& key) {
     Pose pose;
     for (std::size_t i = 0; i < 3; ++i) pose.row[i] = to_vector(rows[i], "rows");
     pose.shift = vector(json, "shift");
-    // A mirror image would pass all other checks and be carved.
+    // A mirror image would pass all other checks and be milled.
     const double turn = dot(pose.row[0], cross(pose.row[1], pose.row[2]));
     if (!(std::abs(turn - 1) < 1e-6)) throw wrong(key, "is not a rotation");
     return pose;

@@ -21,7 +21,7 @@ constexpr double most = std::numeric_limits<double>::max();
 Json from_chunk(const JobChunk& chunk) {
     return {{"file", chunk.file},
             {"tool", chunk.tool},
-            {"direction", chunk.direction + 1},
+            {"direction", chunk.orientation + 1},
             {"moves", chunk.moves},
             {"length_mm", chunk.length_mm},
             {"box", from_box(chunk.box)},
@@ -41,7 +41,7 @@ JobChunk to_chunk(const Json& json) {
     chunk.tool = whole<std::uint16_t>(json, "tool");
     const auto direction = whole<std::uint32_t>(json, "direction");
     if (direction < 1) throw wrong("direction", "counts from 1");
-    chunk.direction = direction - 1;
+    chunk.orientation = direction - 1;
     chunk.moves = whole<std::uint64_t>(json, "moves");
     chunk.length_mm = real_within(json, "length_mm", 0, most);
     chunk.box = box(json, "box");
@@ -54,7 +54,7 @@ Json from_left_out(const std::vector<ToolLeftOut>& left_out) {
     Json list = Json::array();
     for (const ToolLeftOut& tool : left_out) {
         list.push_back({{"tool", tool.tool ? Json(*tool.tool) : Json(nullptr)},
-                        {"direction", tool.direction ? Json(*tool.direction + 1) : Json(nullptr)},
+                        {"direction", tool.orientation ? Json(*tool.orientation + 1) : Json(nullptr)},
                         {"because", tool.because}});
     }
     return list;
@@ -68,7 +68,7 @@ std::vector<ToolLeftOut> to_left_out(const Json& list) {
         if (!member(json, "direction").is_null()) {
             const auto direction = whole<std::uint32_t>(json, "direction");
             if (direction < 1) throw wrong("direction", "counts from 1");
-            tool.direction = direction - 1;
+            tool.orientation = direction - 1;
         }
         tool.because = text(json, "because");
         if (tool.because.empty()) throw wrong("because", "is empty");
@@ -108,7 +108,7 @@ bool is_listed(const std::vector<std::string>& files, const std::string& name) {
 void read_drilling(const Json& json, JobProgram& program) {
     for (const Json& direction : items(json, "drilling")) {
         program.drilling.push_back({vector(direction, "out"), real(direction, "table_angle_rad")});
-        if (!(std::abs(norm(program.drilling.back().out) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
+        if (!(std::abs(norm(program.drilling.back().tool_axis) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
     }
     for (const Json& hole : items(json, "holes")) {
         if (!hole.is_number_unsigned()) throw wrong("holes", "is not a list of numbers of holes");
@@ -156,8 +156,8 @@ Json from_program(const std::optional<JobProgram>& program) {
     Json chunks = Json::array();
     for (const JobChunk& chunk : program->chunks) chunks.push_back(from_chunk(chunk));
     Json drilling = Json::array();
-    for (const DrillDirection& direction : program->drilling) {
-        drilling.push_back({{"out", from_vector(direction.out)}, {"table_angle_rad", direction.table_angle}});
+    for (const DrillOrientation& orientation : program->drilling) {
+        drilling.push_back({{"out", from_vector(orientation.tool_axis)}, {"table_angle_rad", orientation.table_angle}});
     }
     return Json::array(
         {Json{{"dialect", to_word(program->dialect)},

@@ -68,7 +68,7 @@ void check_ticket(const ReadJob& job, const std::string& source) {
 }
 
 void check_poses(const ReadJob& job, const std::string& source) {
-    const EnvelopeSummary poses = read_envelope_document(as_text(job.files.at(envelope_name)), source);
+    const ReachabilitySummary poses = read_envelope_document(as_text(job.files.at(envelope_name)), source);
     const bool same = poses.piece == job.piece && poses.is_arm_checked == job.is_arm_checked &&
                       poses.holds == job.holds_poses && poses.placement == job.setup.placement;
     if (!same) refuse(source, "envelope.json and manifest.json describe different jobs");

@@ -33,7 +33,7 @@ struct TicketTemplate {
     std::uint32_t feed_max_mm_per_min = 0;
     std::uint32_t estimated_time_s = 0;
     std::uint16_t base_plane = no_base_plane;  // number of the cut whose cap lies on the table
-    std::uint16_t part = 0;  // 1..parts of a piece that several jobs carve in one clamping; both 0: undivided
+    std::uint16_t part = 0;  // 1..parts of a piece that several jobs mill in one clamping; both 0: undivided
     std::uint16_t parts = 0;
     bool operator==(const TicketTemplate&) const = default;
 };

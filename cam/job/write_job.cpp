@@ -92,7 +92,7 @@ TicketTemplate ticket_template(const JobInput& input) {
 Bytes job_file(const JobInput& input) {
     job_file_name(input.piece.name);  // throws if the name does not fit the wire
     const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
-                             input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};
+                             input.piece_count, input.setup.base.value_or(-1), input.stock_fit.fits()};
     std::map<std::string, Bytes> files;
     {
         const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
@@ -101,7 +101,7 @@ Bytes job_file(const JobInput& input) {
         const SetupPictures pictures = setup_pictures(input, lying);
         files["setup-1.png"] = pictures.front;
         files["setup-2.png"] = pictures.back;
-        if (input.work_envelope.is_arm_checked) files["envelope.png"] = envelope_picture(input, lying);
+        if (input.machine_reachability.is_arm_checked) files["envelope.png"] = envelope_picture(input, lying);
     }
     if (input.program) {
         for (const auto& [name, text] : input.program->texts) files[name] = to_bytes(text);

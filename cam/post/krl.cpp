@@ -27,22 +27,22 @@ struct Names {
 
 // The runs of every chunk: as many as fit into its lines and bytes.
 std::vector<RunRange> chunk_ranges(const Program& program, const KrlChunks& chunks, const ProgramSettings& settings) {
-    constexpr std::size_t most_numbers = 20;  // by which the header of the longest comments may be longer
-    const std::size_t most_bytes = settings.memory_bytes / 2;
+    constexpr std::size_t max_numbers = 20;  // by which the header of the longest comments may be longer
+    const std::size_t max_bytes = settings.memory_bytes / 2;
     std::vector<RunRange> ranges;
-    for (std::size_t s = 0; s < program.sections.size(); ++s) {
-        const ProgramSection& section = program.sections[s];
+    for (std::size_t s = 0; s < program.operations.size(); ++s) {
+        const ProgramOperation& operation = program.operations[s];
         std::size_t lines = 0;
         std::size_t bytes = 0;
-        for (std::size_t r = 0; r < section.runs.size(); ++r) {
+        for (std::size_t r = 0; r < operation.runs.size(); ++r) {
             double speed = 0;
-            const KrlText run = chunks.run(section, section.runs[r], true, speed);
-            if (r == 0 || lines + run.lines() > settings.lines_per_chunk || bytes + run.bytes().size() > most_bytes) {
+            const KrlText run = chunks.run(operation, operation.runs[r], true, speed);
+            if (r == 0 || lines + run.lines() > settings.lines_per_chunk || bytes + run.bytes().size() > max_bytes) {
                 const KrlText alone = chunks.chunk({s, r, 1}, "qc", 0, 1);
                 ranges.push_back({s, r, 0});
-                lines = alone.lines() - run.lines() + section.exit.targets.size() + 3;
-                bytes = alone.bytes().size() - run.bytes().size() + 100 * (section.exit.targets.size() + 2) +
-                        most_numbers * 8;
+                lines = alone.lines() - run.lines() + operation.exit.targets.size() + 3;
+                bytes = alone.bytes().size() - run.bytes().size() + 100 * (operation.exit.targets.size() + 2) +
+                        max_numbers * 8;
             }
             ++ranges.back().count;
             lines += run.lines();
@@ -74,14 +74,14 @@ class Mains {
         double angle = 0;
         std::optional<std::size_t> tool;
         for (std::size_t i = first; i < last; ++i) {
-            const ProgramSection& section = section_of(all[i]);
-            if (!tool) begin(part, section, text);
-            if (tool && *tool != section.tool) stop(text);
-            if (tool && *tool != section.tool) chunks_.add_joint_move(program_.home, angle, text);
-            if (!tool || *tool != section.tool) change_tool(section.tool, text);
-            tool = section.tool;
-            if (section.table_angle != angle) chunks_.add_joint_move(program_.home, section.table_angle, text);
-            angle = section.table_angle;
+            const ProgramOperation& operation = operation_at(all[i]);
+            if (!tool) begin(part, operation, text);
+            if (tool && *tool != operation.tool) stop(text);
+            if (tool && *tool != operation.tool) chunks_.add_joint_move(program_.home, angle, text);
+            if (!tool || *tool != operation.tool) change_tool(operation.tool, text);
+            tool = operation.tool;
+            if (operation.table_angle != angle) chunks_.add_joint_move(program_.home, operation.table_angle, text);
+            angle = operation.table_angle;
             text.line(names_.chunk(i) + "( )");
         }
         end(angle, text);
@@ -98,10 +98,12 @@ class Mains {
     }
 
  private:
-    const ProgramSection& section_of(const WrittenChunk& chunk) const { return program_.sections[chunk.range.section]; }
+    const ProgramOperation& operation_at(const WrittenChunk& chunk) const {
+        return program_.operations[chunk.range.operation];
+    }
 
-    void begin(std::size_t part, const ProgramSection& section, KrlText& text) const {
-        chunks_.add_tool(section.tool, text);
+    void begin(std::size_t part, const ProgramOperation& operation, KrlText& text) const {
+        chunks_.add_tool(operation.tool, text);
         if (part > 0) {
             text.comment("ASK part " + std::to_string(part) + " has ended, and this is the same block, not moved");
             text.line("HALT");
@@ -138,14 +140,14 @@ class Mains {
 constexpr std::size_t bytes_of_main = 2'500;
 constexpr std::size_t bytes_per_call = 600;  // with a tool change and a turn of the table
 
-// The first chunk of every part: whole sections, because between them the arm is at home.
+// The first chunk of every part: whole operations, because between them the arm is at home.
 std::vector<std::size_t> part_starts(const std::vector<WrittenChunk>& all, std::size_t memory) {
     std::vector<std::size_t> starts;
     std::size_t used = 0;
     for (std::size_t i = 0; i < all.size();) {
         std::size_t own = 0;
         std::size_t next = i;
-        for (; next < all.size() && all[next].range.section == all[i].range.section; ++next) {
+        for (; next < all.size() && all[next].range.operation == all[i].range.operation; ++next) {
             own += all[next].file.text.size() + bytes_per_call;
         }
         if (own + bytes_of_main > memory) {
@@ -165,18 +167,18 @@ std::vector<std::size_t> part_starts(const std::vector<WrittenChunk>& all, std::
 }
 
 PostedChunk listed(const Program& program, const Cell& cell, const WrittenChunk& chunk, std::size_t order) {
-    const ProgramSection& section = program.sections[chunk.range.section];
+    const ProgramOperation& operation = program.operations[chunk.range.operation];
     PostedChunk posted{chunk.file.name,
                        order,
-                       chunk.range.section,
-                       section.tool,
-                       cell.machine->tools[section.tool].number,
-                       section.direction,
+                       chunk.range.operation,
+                       operation.tool,
+                       cell.machine->tools[operation.tool].number,
+                       operation.orientation,
                        chunk.range.first,
                        chunk.range.count,
                        {}};
     for (std::size_t r = chunk.range.first; r < chunk.range.first + chunk.range.count; ++r) {
-        if (section.runs[r].hole > 0) posted.holes.push_back(section.runs[r].hole);
+        if (operation.runs[r].hole > 0) posted.holes.push_back(operation.runs[r].hole);
     }
     return posted;
 }
@@ -184,7 +186,7 @@ PostedChunk listed(const Program& program, const Cell& cell, const WrittenChunk&
 }  // namespace
 
 std::vector<ProgramPart> post_krl(const Program& program, const Cell& cell, const ProgramName& name) {
-    assert(cell.machine && !program.sections.empty());
+    assert(cell.machine && !program.operations.empty());
     if (cell.machine->program.dialect != Dialect::krl) throw NoPostYet(cell.machine->program.dialect);
     check_signals(*cell.machine);
     const KrlChunks chunks(program, cell);

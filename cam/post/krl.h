@@ -28,11 +28,11 @@ struct ProgramText {
 struct PostedChunk {
     std::string name;               // of its file
     std::size_t order = 0;          // from 0 over all parts
-    std::size_t section = 0;        // index in Program::sections
+    std::size_t operation = 0;      // index in Program::operations
     std::size_t tool = 0;           // index in CellMachine::tools
-    std::uint16_t tool_number = 0;  // CarvingTool::number
-    std::size_t direction = 0;      // index in SurfaceReach::directions
-    std::size_t first_run = 0;      // of the section
+    std::uint16_t tool_number = 0;  // CuttingTool::number
+    std::size_t orientation = 0;    // index in SurfaceAccess::orientations
+    std::size_t first_run = 0;      // of the operation
     std::size_t runs = 0;
     std::vector<std::size_t> holes;  // numbers of those that its runs drill
     bool operator==(const PostedChunk&) const = default;

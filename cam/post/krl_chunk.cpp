@@ -17,7 +17,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t longest_name = 24;
-constexpr double most_speed = 5;  // m/s
+constexpr double max_speed = 5;  // m/s
 constexpr int point_decimals = 2;
 constexpr int speed_decimals = 4;
 constexpr double rounding_unit = 0.001;  // mm, of $APO.CDIS
@@ -31,7 +31,7 @@ std::string metres_per_s(double speed_mm_s) {
         throw InputError(InputFault::use,
                          "a move at " + significant(speed_mm_s, 3) + " mm/s is too slow for a program");
     }
-    return krl::number("$VEL.CP", stepped / 1000, speed_decimals, most_speed);
+    return krl::number("$VEL.CP", stepped / 1000, speed_decimals, max_speed);
 }
 
 std::string box_words(const Box& box) {
@@ -69,12 +69,12 @@ void KrlChunks::add_axis_speeds(KrlText& text) const {
 }
 
 void KrlChunks::add_tool(std::size_t tool, KrlText& text) const {
-    constexpr double most_kg = 10'000;
+    constexpr double max_kg = 10'000;
     const ProgramTool& own = program_.tools[tool];
     const Vec3 inertia = own.load.inertia_kg_m2;
-    text.line("$LOAD = {M " + krl::number("M", own.load.mass_kg, 3, most_kg) + ",CM " +
-              krl::frame(own.load.centre_in_flange) + ",J {X " + krl::number("J", inertia.x, 4, most_kg) + ",Y " +
-              krl::number("J", inertia.y, 4, most_kg) + ",Z " + krl::number("J", inertia.z, 4, most_kg) + "}}");
+    text.line("$LOAD = {M " + krl::number("M", own.load.mass_kg, 3, max_kg) + ",CM " +
+              krl::frame(own.load.centre_in_flange) + ",J {X " + krl::number("J", inertia.x, 4, max_kg) + ",Y " +
+              krl::number("J", inertia.y, 4, max_kg) + ",Z " + krl::number("J", inertia.z, 4, max_kg) + "}}");
     text.line("$TOOL = " + krl::frame(own.tool_in_flange));
 }
 
@@ -90,17 +90,17 @@ void KrlChunks::add_joint_move(const Joints& joints, double table_angle, KrlText
     text.line(line + "}");
 }
 
-std::string KrlChunks::full_pose(const ProgramSection& section, Vec3 tip) const {
-    std::string line = "LIN {" + krl::position(tip, point_decimals) + krl::angles(section.tool_in_setup, 3);
-    if (program_.external_axis) line += "," + krl::external(*program_.external_axis, section.table_angle);
+std::string KrlChunks::full_pose(const ProgramOperation& operation, Vec3 tip) const {
+    std::string line = "LIN {" + krl::position(tip, point_decimals) + krl::angles(operation.tool_in_setup, 3);
+    if (program_.external_axis) line += "," + krl::external(*program_.external_axis, operation.table_angle);
     return line + "}";
 }
 
-void KrlChunks::add_settings(const ProgramSection& section, KrlText& text) const {
-    const double rounding = rounding_unit * std::floor(section.rounding / rounding_unit + 1e-6);
+void KrlChunks::add_settings(const ProgramOperation& operation, KrlText& text) const {
+    const double rounding = rounding_unit * std::floor(operation.rounding / rounding_unit + 1e-6);
     text.line("$ADVANCE = 5");
     add_axis_speeds(text);
-    add_tool(section.tool, text);
+    add_tool(operation.tool, text);
     add_base(text);
     text.line("$ACC.CP = " + krl::number("$ACC.CP", machine_.program.acceleration / 1000, 4, 100));
     for (const char* name : {"$VEL.ORI1", "$VEL.ORI2"}) {
@@ -110,17 +110,17 @@ void KrlChunks::add_settings(const ProgramSection& section, KrlText& text) const
 }
 
 bool KrlChunks::starts_from_home(const RunRange& range) const {
-    const ProgramSection& section = program_.sections[range.section];
-    return range.first == 0 || section.runs[range.first].starts_from_home;
+    const ProgramOperation& operation = program_.operations[range.operation];
+    return range.first == 0 || operation.runs[range.first].starts_from_home;
 }
 
 void KrlChunks::add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const {
-    const ProgramSection& section = program_.sections[range.section];
-    const CarvingTool& tool = machine_.tools[section.tool];
+    const ProgramOperation& operation = program_.operations[range.operation];
+    const CuttingTool& tool = machine_.tools[operation.tool];
     Box box;
     std::size_t moves = 0;
     for (std::size_t r = range.first; r < range.first + range.count; ++r) {
-        const ProgramRun& run = section.runs[r];
+        const ProgramRun& run = operation.runs[r];
         if (r == range.first) box = {run.start, run.start};
         moves += run.moves.size();
         for (int i = 0; i < 3; ++i) {
@@ -133,7 +133,7 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
         }
     }
     text.comment("chunk " + std::to_string(order + 1) + " of " + std::to_string(total));
-    text.comment("direction " + std::to_string(section.direction + 1));
+    text.comment("direction " + std::to_string(operation.orientation + 1));
     text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
     text.comment("moves of runs: " + std::to_string(moves));
     text.comment("box of the tip in mm: " + box_words(box));
@@ -143,13 +143,13 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
 
 // A place that is stated already is left out; the corner there is rounded only if every move that ends there allows it,
 // and never where a run ends.
-KrlText KrlChunks::run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const {
-    const bool has_rounding = section.rounding >= rounding_unit;
+KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, double& speed) const {
+    const bool has_rounding = operation.rounding >= rounding_unit;
     KrlText text;
     if (run.hole > 0) text.comment("hole " + std::to_string(run.hole));
     std::string here = krl::position(run.start, point_decimals);
     set_speed(run.link_speed, speed, text);
-    text.line(is_first ? full_pose(section, run.start) : "LIN {" + here + "}");
+    text.line(is_first ? full_pose(operation, run.start) : "LIN {" + here + "}");
     const auto position_of = [&](std::size_t i) {
         return i < run.moves.size() ? krl::position(run.moves[i].tip, point_decimals) : std::string();
     };
@@ -170,33 +170,34 @@ KrlText KrlChunks::run(const ProgramSection& section, const ProgramRun& run, boo
 }
 
 KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const {
-    const ProgramSection& section = program_.sections[range.section];
+    const ProgramOperation& operation = program_.operations[range.operation];
     KrlText text;
     begin_program(name, text);
     add_description(range, order, total, text);
-    add_settings(section, text);
+    add_settings(operation, text);
     start_extraction(machine_, text);
-    start_spindle(machine_, section.rpm, text);
+    start_spindle(machine_, operation.rpm, text);
     double speed = 0;
-    const ProgramRun& first = section.runs[range.first];
-    if (range.first > 0) add_joint_move(first.start_joints, section.table_angle, text);
-    for (const Joints& target : section.entry.targets) {
-        if (range.first == 0) add_joint_move(target, section.table_angle, text);
+    const ProgramRun& first = operation.runs[range.first];
+    if (range.first > 0) add_joint_move(first.start_joints, operation.table_angle, text);
+    for (const Joints& target : operation.entry.targets) {
+        if (range.first == 0) add_joint_move(target, operation.table_angle, text);
     }
     for (std::size_t r = range.first; r < range.first + range.count; ++r) {
-        text.append(run(section, section.runs[r], r == range.first, speed));
+        text.append(run(operation, operation.runs[r], r == range.first, speed));
     }
     const std::size_t end = range.first + range.count;
-    if (end < section.runs.size()) {
-        set_speed(section.runs[end].link_speed, speed, text);
-        text.line("LIN {" + krl::position(section.runs[end].start, point_decimals) + "}");
+    if (end < operation.runs.size()) {
+        set_speed(operation.runs[end].link_speed, speed, text);
+        text.line("LIN {" + krl::position(operation.runs[end].start, point_decimals) + "}");
     } else {
-        const Vec3 last = section.runs.back().moves.back().tip;
-        if (section.exit.raise > 0) {
-            set_speed(section.exit.raise_speed, speed, text);
-            text.line("LIN {" + krl::position(last + section.exit.raise * section.out, point_decimals) + "}");
+        const Vec3 last = operation.runs.back().moves.back().tip;
+        if (operation.exit.retract > 0) {
+            set_speed(operation.exit.retract_speed, speed, text);
+            text.line("LIN {" + krl::position(last + operation.exit.retract * operation.tool_axis, point_decimals) +
+                      "}");
         }
-        for (const Joints& target : section.exit.targets) add_joint_move(target, section.table_angle, text);
+        for (const Joints& target : operation.exit.targets) add_joint_move(target, operation.table_angle, text);
     }
     text.line("END");
     return text;

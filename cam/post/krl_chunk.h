@@ -1,4 +1,4 @@
-// The lines of one chunk of a KRL program: header, settings, moves of some runs of a section.
+// The lines of one chunk of a KRL program: header, settings, moves of some runs of an operation.
 
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace qchopper {
 
-// Runs of one section.
+// Runs of one operation.
 struct RunRange {
-    std::size_t section = 0;
+    std::size_t operation = 0;
     std::size_t first = 0;
     std::size_t count = 0;
 };
@@ -26,9 +26,9 @@ class KrlChunks {
     KrlText chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const;
 
     // The moves of one run, from its start. `speed` is that which is set before, and after it.
-    KrlText run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const;
+    KrlText run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, double& speed) const;
 
-    // Load and tool of a section.
+    // Load and tool of an operation.
     void add_tool(std::size_t tool, KrlText& text) const;
     // A joint move; angle of the table in radians.
     void add_joint_move(const Joints& joints, double table_angle, KrlText& text) const;
@@ -37,10 +37,10 @@ class KrlChunks {
 
  private:
     void add_base(KrlText& text) const;
-    void add_settings(const ProgramSection& section, KrlText& text) const;
+    void add_settings(const ProgramOperation& operation, KrlText& text) const;
     bool starts_from_home(const RunRange& range) const;
     void add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const;
-    std::string full_pose(const ProgramSection& section, Vec3 tip) const;
+    std::string full_pose(const ProgramOperation& operation, Vec3 tip) const;
 
     const Program& program_;
     const CellMachine& machine_;

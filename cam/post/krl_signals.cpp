@@ -11,8 +11,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double most_analogue = 1.000001;  // of $ANOUT
-constexpr double most_argument = 1e6;
+constexpr double max_analogue = 1.000001;  // of $ANOUT
+constexpr double max_argument = 1e6;
 
 [[noreturn]] void refuse(const std::string& key, const std::string& what) {
     throw InputError(InputFault::config, "the cell file names no signal " + key + ": " + what,
@@ -39,9 +39,9 @@ void start_spindle(const CellMachine& machine, double rpm, KrlText& text) {
     if (spindle.speed) {
         const double value = rpm * spindle.speed->scale;
         if (spindle.speed->kind == SignalKind::call) {
-            text.line(spindle.speed->target + "(" + krl::number("speed of the spindle", value, 1, most_argument) + ")");
+            text.line(spindle.speed->target + "(" + krl::number("speed of the spindle", value, 1, max_argument) + ")");
         } else {
-            const std::string volts = krl::number("speed of the spindle", value, 5, most_analogue);
+            const std::string volts = krl::number("speed of the spindle", value, 5, max_analogue);
             text.line("$ANOUT[" + spindle.speed->target + "] = " + volts);
         }
     }
@@ -62,7 +62,7 @@ void stop_extraction(const CellMachine& machine, KrlText& text) {
     if (machine.extraction) switch_signal(machine.extraction->off, false, text);
 }
 
-void ask_for_tool(const CellMachine& machine, const CarvingTool& tool, KrlText& text) {
+void ask_for_tool(const CellMachine& machine, const CuttingTool& tool, KrlText& text) {
     if (machine.program.tool_change_call) {
         return text.line(*machine.program.tool_change_call + "(" + std::to_string(tool.number) + ")");
     }

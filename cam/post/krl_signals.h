@@ -17,6 +17,6 @@ void stop_spindle(const CellMachine& machine, KrlText& text);
 void start_extraction(const CellMachine& machine, KrlText& text);
 void stop_extraction(const CellMachine& machine, KrlText& text);
 // The call that the cell file names, or a stop in which the operator changes the tool and checks its length.
-void ask_for_tool(const CellMachine& machine, const CarvingTool& tool, KrlText& text);
+void ask_for_tool(const CellMachine& machine, const CuttingTool& tool, KrlText& text);
 
 }  // namespace qchopper

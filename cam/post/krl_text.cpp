@@ -15,11 +15,11 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr double farthest = 5000;  // mm
-constexpr double most_degrees = 3600;
+constexpr double max_degrees = 3600;
 
 // An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
 std::string angle(const char* name, double value, int decimals) {
-    const std::string text = krl::number(name, degrees * value, decimals, most_degrees);
+    const std::string text = krl::number(name, degrees * value, decimals, max_degrees);
     return text == "-" + fixed(180, decimals) ? text.substr(1) : text;
 }
 
@@ -81,14 +81,14 @@ std::string joints(const Joints& joints) {
     std::string text;
     for (std::size_t i = 0; i < axes_of_arm; ++i) {
         const std::string name = "A" + std::to_string(i + 1);
-        text += (i > 0 ? "," : "") + name + " " + number(name, degrees * joints[i], 3, most_degrees);
+        text += (i > 0 ? "," : "") + name + " " + number(name, degrees * joints[i], 3, max_degrees);
     }
     return text;
 }
 
 std::string external(int axis, double angle) {
     const std::string name = "E" + std::to_string(axis);
-    return name + " " + number(name, degrees * angle, 3, most_degrees);
+    return name + " " + number(name, degrees * angle, 3, max_degrees);
 }
 
 }  // namespace krl

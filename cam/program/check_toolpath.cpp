@@ -30,7 +30,7 @@ void check_value(const std::string& where, const char* name, double value, doubl
 }
 
 void check_speeds(const std::string& where, const Operation& operation, const CellMachine& machine) {
-    const CarvingTool& tool = machine.tools[operation.tool];
+    const CuttingTool& tool = machine.tools[operation.tool];
     const double link = machine.program.link_feed_mm_per_s;
     check_value(where, "feed", operation.feed, tool.feed_min_mm_per_s, tool.feed_max_mm_per_s);
     check_value(where, "approach feed", operation.approach_feed, 0.5 * tool.feed_min_mm_per_s, tool.feed_max_mm_per_s);
@@ -57,7 +57,8 @@ void check_toolpath(const Toolpath& toolpath, const Setup& setup, const Cell& ce
         const Operation& operation = toolpath.operations[i];
         const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
         if (operation.tool >= cell.machine->tools.size()) refuse(where, "its tool is not in the cell file");
-        if (operation.direction >= setup.reach.directions.size()) refuse(where, "its direction is not of the setup");
+        if (operation.orientation >= setup.access.orientations.size())
+            refuse(where, "its direction is not of the setup");
         if (operation.runs.empty()) refuse(where, "has no runs");
         check_speeds(where, operation, *cell.machine);
         for (std::size_t k = 0; k < operation.runs.size(); ++k) {

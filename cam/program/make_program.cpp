@@ -1,16 +1,16 @@
-// Operations are held one beside the other on several threads; then sections are joined in their order: of whole turns
-// of the axes the nearest, and the ways between.
+// Operations are held one beside the other on several threads; then operations are joined in their order: of whole
+// turns of the axes the nearest, and the ways between.
 //
-// What no hold of the arm carries is left out. The work envelope judges the extreme poses of a setup, and a toolpath
-// goes farther in places: a radius below the base plane, and beside the block. A run that no hold carries is divided;
-// where that does not help, its moves are left out up to the next place from which a hold carries a cut, and the tool
-// comes down again there. At most a fiftieth of the length of an operation's cuts is left out (most_left_out); more
-// refuses the program, and holes are drilled as a whole or not at all. What was left out, and why, stands in the
-// manifest, on the sheet and in the verdict. What it means for the piece is not judged here: the proof replays the
-// program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
+// What no arm configuration takes is left out. The work envelope judges the extreme poses of a setup, and a toolpath
+// goes farther in places: a radius below the base plane, and beside the block. A run that no configuration takes is
+// divided; where that does not help, its moves are left out up to the next place from which an arm posture takes a cut,
+// and the tool comes down again there. At most a fiftieth of the length of an operation's cuts is left out
+// (max_left_out); more refuses the program, and holes are drilled as a whole or not at all. What was left out, and why,
+// stands in the manifest, on the sheet and in the verdict. What it means for the piece is not judged here: the proof
+// replays the program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
 //
 // Cost: a later link over foam that now stays, or more foam for finishing, makes the proof refuse the job. A reserve
-// in the work envelope would refuse placements that are good but for a corner; raising the tip surface where the arm
+// in the work envelope would refuse placements that are good but for a corner; raising the CL surface where the arm
 // does not hold it would need the arm, and an answer for every cell, while the toolpath is made. Test:
 // tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoHoldCarries.
 
@@ -31,8 +31,8 @@
 #include "base/shared_progress.h"
 #include "cam/cell/reach_map.h"
 #include "cam/program/check_toolpath.h"
-#include "cam/program/hold_search.h"
-#include "cam/program/joint_ways.h"
+#include "cam/program/posture_search.h"
+#include "cam/program/ptp_planner.h"
 #include "cam/program/sampled_path.h"
 #include "cam/program/split_run.h"
 #include "cam/setup/block_placement.h"
@@ -43,12 +43,12 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr std::size_t lines_around = 80;  // of a chunk, beside its runs
 constexpr std::size_t fewest_lines = 20;  // of a run
-constexpr double most_left_out = 0.02;    // of the cuts of an operation, as a share of their length
+constexpr double max_left_out = 0.02;     // of the cuts of an operation, as a share of their length
 
 using JointExtents = std::array<AngleRange, axes_of_arm>;
 
-struct HeldSection {
-    ProgramSection section;
+struct PlannedOperation {
+    ProgramOperation operation;
     JointExtents extents;  // of all its poses
 };
 
@@ -62,16 +62,16 @@ JointExtents extents_of(const std::vector<Joints>& all) {
     return extents;
 }
 
-// Lines of a section at most: a part of a piece holds whole sections, and takes a few of them.
-std::size_t section_lines(const Cell& cell) {
+// Lines of an operation at most: a part of a piece holds whole operations, and takes a few of them.
+std::size_t operation_lines(const Cell& cell) {
     constexpr std::size_t bytes_per_line = 50;
     return cell.machine->program.memory_bytes / 4 / bytes_per_line;
 }
 
 // Lines of a run at most.
-std::size_t most_lines(const Cell& cell) {
+std::size_t max_lines(const Cell& cell) {
     const std::size_t lines = cell.machine->program.lines_per_chunk;
-    const std::size_t most = std::min(lines, section_lines(cell));
+    const std::size_t most = std::min(lines, operation_lines(cell));
     return std::max(fewest_lines, most > lines_around ? most - lines_around : 0);
 }
 
@@ -94,26 +94,26 @@ void limit_speed_changes(ProgramRun& run, std::size_t lines) {
 // One operation.
 class OperationHolder {
  public:
-    OperationHolder(const Setup& setup, const WorkEnvelope& envelope, const Cell& cell, const Operation& operation,
-                    const Context& context)
-        : search_(setup, envelope, cell, operation),
+    OperationHolder(const Setup& setup, const MachineReachability& reachability, const Cell& cell,
+                    const Operation& operation, const Context& context)
+        : search_(setup, reachability, cell, operation),
           operation_(operation),
           context_(context),
-          most_lines_(section_lines(cell)),
-          most_lines_of_run_(most_lines(cell)),
-          runs_(split_long_runs(operation.runs, most_lines_of_run_, search_.out(), operation.retract)) {}
+          max_lines_(operation_lines(cell)),
+          max_lines_of_run_(max_lines(cell)),
+          runs_(split_long_runs(operation.runs, max_lines_of_run_, search_.tool_axis(), operation.retract)) {}
 
-    // What sections() left out: the length of cuts, and why no hold carries the first of them.
+    // What operations() left out: the length of cuts, and why no configuration takes the first of them.
     double left_out() const { return left_out_; }
     const std::string& left_out_because() const { return left_out_because_; }
 
-    std::vector<HeldSection> sections(const std::string& where) {
-        std::vector<HeldSection> held;
+    std::vector<PlannedOperation> operations(const std::string& where) {
+        std::vector<PlannedOperation> planned;
         for (std::size_t first = 0; first < runs_.size();) {
             context_.check_cancelled();
             const std::span<const PathRun> rest = section_from(first);
             const SampledPath path = sampled_path(rest);
-            const HeldPath longest = search_.longest(rest, path);
+            const ReachablePath longest = search_.longest(rest, path);
             if (longest.runs == 0) {
                 refusal_ = search_.refusal();
                 if (divide(first, path, longest) || leave_out(first, path, longest)) continue;
@@ -121,31 +121,31 @@ class OperationHolder {
                     where + ", run " + std::to_string(first + 1) + ": no hold of the arm carries it: " + refusal_,
                     "place the block otherwise, or carve from other directions");
             }
-            held.push_back({search_.section(rest, path, longest), extents_of(longest.joints)});
-            for (ProgramRun& run : held.back().section.runs) limit_speed_changes(run, most_lines_of_run_);
+            planned.push_back({search_.operation(rest, path, longest), extents_of(longest.joints)});
+            for (ProgramRun& run : planned.back().operation.runs) limit_speed_changes(run, max_lines_of_run_);
             first += longest.runs;
         }
-        return held;
+        return planned;
     }
 
  private:
-    // The runs of one section: at least one.
+    // The runs of one operation: at least one.
     std::span<const PathRun> section_from(std::size_t first) const {
         std::size_t count = 0;
         for (std::size_t lines = 0; first + count < runs_.size(); ++count) {
             lines += lines_of(runs_[first + count]) + 1;
-            if (count > 0 && lines > most_lines_) break;
+            if (count > 0 && lines > max_lines_) break;
         }
         return {runs_.data() + first, count};
     }
 
-    // Divides a run that no hold carries where one carries its first part.
-    bool divide(std::size_t at, const SampledPath& path, const HeldPath& longest) {
+    // Divides a run that no configuration takes where one carries its first part.
+    bool divide(std::size_t at, const SampledPath& path, const ReachablePath& longest) {
         const PathRun run = runs_[at];
         for (std::size_t count = moves_within(run, path, longest.poses); count > 0; count = count * 3 / 4) {
             if (!has_cut(run, count)) return false;
             if (count >= run.moves.size()) continue;
-            auto [head, tail] = split_run(run, count, search_.out(), operation_.retract);
+            auto [head, tail] = split_run(run, count, search_.tool_axis(), operation_.retract);
             const std::vector<PathRun> alone{head};
             const SampledPath head_path = sampled_path(alone);
             if (search_.longest(alone, head_path).runs == 0) continue;
@@ -156,9 +156,9 @@ class OperationHolder {
         return false;
     }
 
-    // Leaves out what of a run no hold carries, up to a place from which one carries a further cut. False if
+    // Leaves out what of a run no configuration takes, up to a place from which one carries a further cut. False if
     // that would be too much.
-    bool leave_out(std::size_t at, const SampledPath& path, const HeldPath& longest) {
+    bool leave_out(std::size_t at, const SampledPath& path, const ReachablePath& longest) {
         if (operation_.kind == OperationKind::drilling) return false;
         const PathRun run = runs_[at];
         const std::size_t first = moves_within(run, path, longest.poses);
@@ -166,7 +166,7 @@ class OperationHolder {
         std::optional<PathRun> tail;
         for (; end < run.moves.size() && !tail; ++end) {
             context_.check_cancelled();
-            PathRun from_here = split_run(run, end, search_.out(), operation_.retract).second;
+            PathRun from_here = split_run(run, end, search_.tool_axis(), operation_.retract).second;
             if (begins_held(from_here)) tail = std::move(from_here);
         }
         if (tail) --end;
@@ -177,13 +177,13 @@ class OperationHolder {
         }
         // Without a cut less, the same run would be asked for again.
         if (!tail && length == 0) return false;
-        if (left_out_ + length > most_left_out * cut_length(operation_.runs)) return false;
+        if (left_out_ + length > max_left_out * cut_length(operation_.runs)) return false;
         if (left_out_ == 0) left_out_because_ = refusal_;
         left_out_ += length;
         std::vector<PathRun> kept;
         if (has_cut(run, first)) {
             PathRun head = run;
-            if (first < run.moves.size()) head = split_run(run, first, search_.out(), operation_.retract).first;
+            if (first < run.moves.size()) head = split_run(run, first, search_.tool_axis(), operation_.retract).first;
             kept.push_back(std::move(head));
         }
         if (tail) kept.push_back(std::move(*tail));
@@ -192,7 +192,7 @@ class OperationHolder {
         return true;
     }
 
-    // Whether a hold carries a run up to a part of its first cut.
+    // Whether an arm posture takes a run up to a part of its first cut.
     bool begins_held(const PathRun& run) {
         const std::vector<PathRun> alone{run};
         const SampledPath path = sampled_path(alone);
@@ -228,113 +228,115 @@ class OperationHolder {
         return run.moves.size();
     }
 
-    HoldSearch search_;
+    PostureSearch search_;
     const Operation& operation_;
     const Context& context_;
-    std::size_t most_lines_ = 0;  // of a section
-    std::size_t most_lines_of_run_ = 0;
+    std::size_t max_lines_ = 0;  // of an operation
+    std::size_t max_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
     std::string refusal_;  // of the last run that no hold carried
     double left_out_ = 0;
     std::string left_out_because_;
 };
 
-struct HeldSections {
-    std::vector<HeldSection> all;  // of all operations, in their order
+struct PlannedOperations {
+    std::vector<PlannedOperation> all;  // of all operations, in their order
     double left_out = 0;
     std::string left_out_because;  // the first one
 };
 
-HeldSections held_sections(const Toolpath& toolpath, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
-                           const Context& context) {
+PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setup,
+                                     const MachineReachability& reachability, const Cell& cell,
+                                     const Context& context) {
     const std::size_t count = toolpath.operations.size();
-    std::vector<std::vector<HeldSection>> by_operation(count);
+    std::vector<std::vector<PlannedOperation>> by_operation(count);
     std::vector<std::exception_ptr> refused(count);
     std::vector<std::pair<double, std::string>> left_out(count);
     SharedProgress progress(context, "operations held", count);
     parallel_for(0, count, [&](std::size_t i) {
         const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
         try {
-            OperationHolder holder(setup, envelope, cell, toolpath.operations[i], context);
-            by_operation[i] = holder.sections(where);
+            OperationHolder holder(setup, reachability, cell, toolpath.operations[i], context);
+            by_operation[i] = holder.operations(where);
             left_out[i] = {holder.left_out(), where + ": " + holder.left_out_because()};
         } catch (const ProgramRefused&) {
             refused[i] = std::current_exception();
         }
         progress.add(1);
     });
-    HeldSections held_all;
+    PlannedOperations all_planned;
     for (std::size_t i = 0; i < count; ++i) {
         if (refused[i]) std::rethrow_exception(refused[i]);
-        for (HeldSection& held : by_operation[i]) {
-            held.section.operation = i;
-            held_all.all.push_back(std::move(held));
+        for (PlannedOperation& planned : by_operation[i]) {
+            planned.operation.toolpath_operation = i;
+            all_planned.all.push_back(std::move(planned));
         }
-        if (left_out[i].first > 0 && held_all.left_out == 0) held_all.left_out_because = left_out[i].second;
-        held_all.left_out += left_out[i].first;
+        if (left_out[i].first > 0 && all_planned.left_out == 0) all_planned.left_out_because = left_out[i].second;
+        all_planned.left_out += left_out[i].first;
     }
-    return held_all;
+    return all_planned;
 }
 
 // Where a setup's direction has the table, -pi..pi.
-double table_angle(const Setup& setup, const Cell& cell, std::size_t direction) {
+double table_angle(const Setup& setup, const Cell& cell, std::size_t orientation) {
     if (!cell.machine->rotary_table) return 0;
-    return std::remainder(setup.placement.table_angle(direction), full_turn);
+    return std::remainder(setup.placement.table_angle(orientation), full_turn);
 }
 
 // The orientation of the program's tool frame: that of tip_frame(), with the axes that the cell file gives the spindle.
-Pose tool_orientation(const Spindle& spindle, const CarvingTool& tool, Vec3 out, double turn) {
+Pose tool_orientation(const Spindle& spindle, const CuttingTool& tool, Vec3 tool_axis, double turn) {
     const Pose tip_in_flange = tool_arm(Robot{}, spindle, tool).tip_in_flange;
     Pose tool_in_tip = inverse(tip_in_flange) * spindle.spindle_in_flange;
     tool_in_tip.shift = {};
-    return tip_frame({}, out, turn) * tool_in_tip;
+    return tip_frame({}, tool_axis, turn) * tool_in_tip;
 }
 
-// Turns whole sections so that they begin near home, and finds the ways there and back.
+// Turns whole operations so that they begin near home, and finds the ways there and back.
 class SectionJoiner {
  public:
     SectionJoiner(const Setup& setup, const Cell& cell) : setup_(setup), cell_(cell) {
         for (std::size_t i = 0; i < cell.machine->tools.size(); ++i) {
-            ways_.push_back(std::make_unique<JointWays>(setup, cell, i));
+            planners_.push_back(std::make_unique<PtpPlanner>(setup, cell, i));
         }
     }
 
-    void join(std::vector<HeldSection>& all, const Context& context) {
+    void join(std::vector<PlannedOperation>& all, const Context& context) {
         double angle = 0;
         context.progress("ways to sections found", 0, all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             context.check_cancelled();
-            ProgramSection& own = all[i].section;
+            ProgramOperation& own = all[i].operation;
             turn_near_home(all[i]);
             turn_table(own, angle);
             angle = own.table_angle;
-            own.entry = way(own, {own.runs.front().start, own.runs.front().start_joints, &own});
-            own.runs.front().link_speed = own.entry.raise_speed;
-            own.exit = way(own, {own.runs.back().moves.back().tip, own.runs.back().end_joints, &own});
+            own.entry = ptp_path(own, {own.runs.front().start, own.runs.front().start_joints, &own});
+            own.runs.front().link_speed = own.entry.retract_speed;
+            own.exit = ptp_path(own, {own.runs.back().moves.back().tip, own.runs.back().end_joints, &own});
             own.exit.targets.pop_back();
             std::reverse(own.exit.targets.begin(), own.exit.targets.end());
             own.exit.targets.push_back(cell_.machine->start.joints);
             find_restarts(own);
             context.progress("ways to sections found", i + 1, all.size());
         }
-        if (!all.empty()) turn_table(all.back().section, 0);
+        if (!all.empty()) turn_table(all.back().operation, 0);
     }
 
  private:
-    // Of whole turns of each axis the one that begins nearest to home, where the section as a whole stays in the range.
-    void turn_near_home(HeldSection& held) const {
+    // Of whole turns of each axis the one that begins nearest to home, where the operation as a whole stays in the
+    // range.
+    void turn_near_home(PlannedOperation& planned) const {
         const CellMachine& machine = *cell_.machine;
-        const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[held.section.tool]);
+        const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[planned.operation.tool]);
         Joints shift{};
-        const Joints& start = held.section.runs.front().start_joints;
+        const Joints& start = planned.operation.runs.front().start_joints;
         for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
             const double turns = full_turn * std::nearbyint((machine.start.joints[axis] - start[axis]) / full_turn);
             const double low = arm.ranges[axis].min + arm.margin;
             const double high = arm.ranges[axis].max - arm.margin;
-            const bool fits = held.extents[axis].min + turns >= low && held.extents[axis].max + turns <= high;
+            const bool fits = planned.extents[axis].min + turns >= low && planned.extents[axis].max + turns <= high;
             if (fits) shift[axis] = turns;
         }
-        for (ProgramRun& run : held.section.runs) {
+        for (ProgramRun& run : planned.operation.runs) {
             for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
                 run.start_joints[axis] += shift[axis];
                 run.end_joints[axis] += shift[axis];
@@ -343,38 +345,38 @@ class SectionJoiner {
     }
 
     // The runs at which a person may start again from home.
-    void find_restarts(ProgramSection& section) const {
+    void find_restarts(ProgramOperation& operation) const {
         constexpr std::size_t runs_at_once = 16;
-        parallel_ranges(0, section.runs.size(), runs_at_once, [&](std::size_t first, std::size_t last) {
-            JointWays ways(setup_, cell_, section.tool);
+        parallel_ranges(0, operation.runs.size(), runs_at_once, [&](std::size_t first, std::size_t last) {
+            PtpPlanner planner(setup_, cell_, operation.tool);
             for (std::size_t r = first; r < last; ++r) {
-                ProgramRun& run = section.runs[r];
-                run.starts_from_home = ways.starts_clear({run.start, run.start_joints, &section});
+                ProgramRun& run = operation.runs[r];
+                run.starts_from_home = planner.starts_clear({run.start, run.start_joints, &operation});
             }
         });
     }
 
-    void turn_table(const ProgramSection& section, double from) {
-        JointWays& ways = *ways_[section.tool];
-        if (ways.turns_clear(from, section.table_angle)) return;
+    void turn_table(const ProgramOperation& operation, double from) {
+        PtpPlanner& planner = *planners_[operation.tool];
+        if (planner.turns_clear(from, operation.table_angle)) return;
         throw ProgramRefused("home is not clear while the table turns for direction " +
-                                 std::to_string(section.direction + 1) + ": " + ways.refusal(),
+                                 std::to_string(operation.orientation + 1) + ": " + planner.refusal(),
                              "choose another start pose");
     }
 
-    JointWay way(const ProgramSection& section, const SectionEnd& end) {
-        JointWays& ways = *ways_[section.tool];
-        std::optional<JointWay> found = ways.from_home(end);
+    PtpPath ptp_path(const ProgramOperation& operation, const OperationEnd& end) {
+        PtpPlanner& planner = *planners_[operation.tool];
+        std::optional<PtpPath> found = planner.from_home(end);
         if (found) return std::move(*found);
-        throw ProgramRefused("no joint move between home and direction " + std::to_string(section.direction + 1) +
-                                 " with tool " + std::to_string(cell_.machine->tools[section.tool].number) +
-                                 " is clear: " + ways.refusal(),
+        throw ProgramRefused("no joint move between home and direction " + std::to_string(operation.orientation + 1) +
+                                 " with tool " + std::to_string(cell_.machine->tools[operation.tool].number) +
+                                 " is clear: " + planner.refusal(),
                              "choose another start pose, or place the block otherwise");
     }
 
     const Setup& setup_;
     const Cell& cell_;
-    std::vector<std::unique_ptr<JointWays>> ways_;  // by tool
+    std::vector<std::unique_ptr<PtpPlanner>> planners_;  // by tool
 };
 
 Program empty_program(const Setup& setup, const Cell& cell) {
@@ -390,7 +392,7 @@ Program empty_program(const Setup& setup, const Cell& cell) {
         program.base = table_in_cell(cell, 0) * on_table;
         if (machine.robot) program.base = inverse(machine.robot->base_in_cell) * program.base;
     }
-    for (const CarvingTool& tool : machine.tools) {
+    for (const CuttingTool& tool : machine.tools) {
         const Vec3 tip = tool_arm(Robot{}, machine.spindle, tool).tip_in_flange.shift;
         program.tools.push_back({{machine.spindle.spindle_in_flange.row, tip}, load_data(machine.spindle, tool)});
     }
@@ -399,23 +401,23 @@ Program empty_program(const Setup& setup, const Cell& cell) {
 
 }  // namespace
 
-Program make_program(const Toolpath& toolpath, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
-                     const Context& context) {
+Program make_program(const Toolpath& toolpath, const Setup& setup, const MachineReachability& reachability,
+                     const Cell& cell, const Context& context) {
     assert(cell.machine);
     check_toolpath(toolpath, setup, cell);
-    HeldSections sections = held_sections(toolpath, setup, envelope, cell, context);
-    std::vector<HeldSection>& all = sections.all;
-    for (HeldSection& held : all) {
-        ProgramSection& section = held.section;
-        section.table_angle = table_angle(setup, cell, section.direction);
-        section.tool_in_setup =
-            tool_orientation(cell.machine->spindle, cell.machine->tools[section.tool], section.out, section.tool_turn);
+    PlannedOperations operations = planned_operations(toolpath, setup, reachability, cell, context);
+    std::vector<PlannedOperation>& all = operations.all;
+    for (PlannedOperation& planned : all) {
+        ProgramOperation& operation = planned.operation;
+        operation.table_angle = table_angle(setup, cell, operation.orientation);
+        operation.tool_in_setup = tool_orientation(cell.machine->spindle, cell.machine->tools[operation.tool],
+                                                   operation.tool_axis, operation.redundancy_angle);
     }
     if (cell.machine->robot) SectionJoiner(setup, cell).join(all, context);
     Program program = empty_program(setup, cell);
-    program.left_out_mm = sections.left_out;
-    program.left_out_because = std::move(sections.left_out_because);
-    for (HeldSection& held : all) program.sections.push_back(std::move(held.section));
+    program.left_out_mm = operations.left_out;
+    program.left_out_because = std::move(operations.left_out_because);
+    for (PlannedOperation& planned : all) program.operations.push_back(std::move(planned.operation));
     return program;
 }
 

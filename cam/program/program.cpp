@@ -18,7 +18,7 @@ struct SolidCylinder {
 
 }  // namespace
 
-LoadData load_data(const Spindle& spindle, const CarvingTool& tool) {
+LoadData load_data(const Spindle& spindle, const CuttingTool& tool) {
     double diameter = tool.diameter;
     for (const HolderStep& step : tool.holder) diameter = std::max(diameter, step.diameter);
     const double gauge = gauge_length(tool);

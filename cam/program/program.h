@@ -14,7 +14,7 @@
 
 #include "base/pose.h"
 #include "cam/cell/arm.h"
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 #include "cam/cell/robot.h"
 #include "cam/toolpath/toolpath.h"
 
@@ -30,7 +30,7 @@ struct LoadData {
 
 // Estimated from the cell file: the spindle as a solid cylinder of its body's size, tool and holder as one from the
 // nose to the tip with the largest diameter of them, each of even density. Inertia by the theorem of parallel axes.
-LoadData load_data(const Spindle& spindle, const CarvingTool& tool);
+LoadData load_data(const Spindle& spindle, const CuttingTool& tool);
 
 struct ProgramTool {
     // The frame in which a program states orientations: the axes of the spindle's frame in the cell file (so that
@@ -48,46 +48,46 @@ struct ProgramMove {
     bool operator==(const ProgramMove&) const = default;
 };
 
-// As PathRun. Within a section the tip goes straight from the end of one run to the start of the next.
+// As PathRun. Within an operation the tip goes straight from the end of one run to the start of the next.
 struct ProgramRun {
     Vec3 start;
     Joints start_joints{};
     Joints end_joints{};
-    double link_speed = 0;          // from the end of the run before, or from the raised start
+    double link_speed = 0;          // from the end of the run before, or from the retracted start
     bool starts_from_home = false;  // whether a joint move from home to its start is clear
     std::vector<ProgramMove> moves;
     std::size_t hole = 0;  // as PathRun::hole
     bool operator==(const ProgramRun&) const = default;
 };
 
-// Joint moves between home and a section.
-struct JointWay {
-    // Distance along the section's out between its first start or last end and the pose where joint moves end or begin.
-    double raise = 0;
-    double raise_speed = 0;  // that every joint can follow
+// Joint moves between home and an operation.
+struct PtpPath {
+    // Distance along the tool axis between its first start or last end and the pose where joint moves end or begin.
+    double retract = 0;
+    double retract_speed = 0;  // that every joint can follow
     std::vector<Joints> targets;
-    bool operator==(const JointWay&) const = default;
+    bool operator==(const PtpPath&) const = default;
 };
 
-// What is carved by one tool from one direction in one hold of the arm. Between sections the arm is at home, where the
+// What is milled by one tool from one direction in one arm posture. Between operations the arm is at home, where the
 // table turns and tools are changed.
-struct ProgramSection {
-    std::size_t operation = 0;  // index in Toolpath::operations
-    std::size_t tool = 0;       // index in CellMachine::tools
-    std::size_t direction = 0;  // index in SurfaceReach::directions, with those of drilling behind them
-    Vec3 out;                   // unit, in setup coordinates
-    ArmBranch branch;
-    double tool_turn = 0;    // about the tool axis, of tip_frame() (work_envelope.h)
-    Pose tool_in_setup;      // orientation of the program's tool frame; its shift is 0
-    double table_angle = 0;  // -pi..pi, of a rotary table; held while the section is carved
+struct ProgramOperation {
+    std::size_t toolpath_operation = 0;  // index in Toolpath::operations
+    std::size_t tool = 0;                // index in CellMachine::tools
+    std::size_t orientation = 0;         // index in SurfaceAccess::orientations, with those of drilling behind them
+    Vec3 tool_axis;                      // unit, in setup coordinates
+    ArmConfiguration configuration;
+    double redundancy_angle = 0;  // about the tool axis, of tip_frame() (machine_reachability.h)
+    Pose tool_in_setup;           // orientation of the program's tool frame; its shift is 0
+    double table_angle = 0;       // -pi..pi, of a rotary table; held while the operation is milled
     double rpm = 0;
     double rounding = 0;            // see PathMove::is_rounded
-    double link_feed = 0;           // from run to run, and on raises
-    JointWay entry;                 // from home; the last target is the raised start
-    JointWay exit;                  // from the raised end; the last target is home
+    double link_feed = 0;           // from run to run, and on retracts
+    PtpPath entry;                  // from home; the last target is the retracted start
+    PtpPath exit;                   // from the retracted end; the last target is home
     std::vector<ProgramRun> runs;   // at least one
     std::size_t lowered_moves = 0;  // slower than the operation asks for
-    bool operator==(const ProgramSection&) const = default;
+    bool operator==(const ProgramOperation&) const = default;
 };
 
 struct Program {
@@ -97,8 +97,8 @@ struct Program {
     bool has_arm = true;
     Joints home{};
     std::vector<ProgramTool> tools;  // in the order of CellMachine::tools
-    std::vector<ProgramSection> sections;
-    double left_out_mm = 0;        // of cuts: no hold of the arm carries them
+    std::vector<ProgramOperation> operations;
+    double left_out_mm = 0;        // of cuts: no arm configuration takes them
     std::string left_out_because;  // of the first ones: operation, check, margin and pose
     bool operator==(const Program&) const = default;
 };

@@ -61,7 +61,7 @@ PoseRegion extreme_poses(const SampledPath& path) {
     for (const Vec3& axis : axes_13()) {
         const auto [least, most] = std::minmax_element(
             path.region.poses.begin(), path.region.poses.end(),
-            [&](const CarvingPose& a, const CarvingPose& b) { return dot(axis, a.tip) < dot(axis, b.tip); });
+            [&](const MillingPose& a, const MillingPose& b) { return dot(axis, a.tip) < dot(axis, b.tip); });
         region.poses.push_back({PoseKind::tip, least->tip, 0});
         region.poses.push_back({PoseKind::tip, most->tip, 0});
     }

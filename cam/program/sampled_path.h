@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "cam/setup/placement/carving_poses.h"
+#include "cam/setup/placement/milling_poses.h"
 #include "cam/toolpath/toolpath.h"
 
 namespace qchopper {

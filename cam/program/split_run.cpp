@@ -33,17 +33,17 @@ std::size_t first_part(const PathRun& run, std::size_t lines) {
 
 }  // namespace
 
-std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec3 out, double retract) {
+std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec3 tool_axis, double retract) {
     assert(count > 0 && count < run.moves.size());
     const auto middle = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
     PathRun head{run.start, {run.moves.begin(), middle}};
     head.moves.back().is_rounded = false;
     const Vec3 tip = head.moves.back().tip;
-    const Vec3 above = tip + (retract - dot(out, tip)) * out;
+    const Vec3 above = tip + (retract - dot(tool_axis, tip)) * tool_axis;
     head.moves.push_back({above, MoveKind::retract, false});
     PathRun tail{above, {}};
-    if (retract - dot(out, tip) > approach_height) {
-        tail.moves.push_back({tip + approach_height * out, MoveKind::link, false});
+    if (retract - dot(tool_axis, tip) > approach_height) {
+        tail.moves.push_back({tip + approach_height * tool_axis, MoveKind::link, false});
     }
     tail.moves.push_back({tip, MoveKind::approach, false});
     tail.moves.insert(tail.moves.end(), middle, run.moves.end());
@@ -58,14 +58,15 @@ std::size_t lines_of(const PathRun& run) {
     return lines;
 }
 
-std::vector<PathRun> split_long_runs(const std::vector<PathRun>& runs, std::size_t lines, Vec3 out, double retract) {
+std::vector<PathRun> split_long_runs(const std::vector<PathRun>& runs, std::size_t lines, Vec3 tool_axis,
+                                     double retract) {
     assert(lines >= 12);
     std::vector<PathRun> parts;
     for (const PathRun& run : runs) {
         PathRun rest = run;
         while (lines_of(rest) > lines) {
             const std::size_t count = first_part(rest, lines);
-            auto [head, tail] = split_run(rest, count, out, retract);
+            auto [head, tail] = split_run(rest, count, tool_axis, retract);
             parts.push_back(std::move(head));
             rest = std::move(tail);
         }

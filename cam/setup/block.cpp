@@ -12,7 +12,7 @@
 namespace qchopper {
 namespace {
 
-// mm3 more in a block that needs no saw cut are worth the cut: to carve them takes a robot about an hour, at the rate
+// mm3 more in a block that needs no saw cut are worth the cut: to mill them takes a robot about an hour, at the rate
 // measured over the programs of docs/measurements/performance.md.
 constexpr double foam_for_a_saw_cut = 20e6;
 
@@ -72,8 +72,8 @@ bool leaves_more(const std::vector<Vec3>& offcuts, const std::vector<Vec3>& othe
 }
 
 // Nothing if no orientation of the stock holds the size.
-std::optional<CarvingBlock> sawn(const Stock& stock, Vec3 needed) {
-    std::optional<CarvingBlock> best;
+std::optional<StockBlock> sawn(const Stock& stock, Vec3 needed) {
+    std::optional<StockBlock> best;
     for (const auto& turn : orders) {
         const Lengths listed = lengths(stock.size);
         const Lengths as_it_stands{listed[turn[0]], listed[turn[1]], listed[turn[2]]};
@@ -82,13 +82,13 @@ std::optional<CarvingBlock> sawn(const Stock& stock, Vec3 needed) {
         for (const auto& order : orders) {
             std::vector<Vec3> offcuts = offcuts_of(as_it_stands, size, stock.kerf, order);
             if (best && !leaves_more(offcuts, best->offcuts)) continue;
-            best = CarvingBlock{0, false, true, {size[0], size[1], size[2]}, true, std::move(offcuts)};
+            best = StockBlock{0, false, true, {size[0], size[1], size[2]}, true, std::move(offcuts)};
         }
     }
     return best;
 }
 
-double depth_under_the_base(const CarvingTool& tool) {
+double depth_under_the_base(const CuttingTool& tool) {
     return tool.corner_radius;
 }
 
@@ -97,19 +97,19 @@ double depth_under_the_base(const CarvingTool& tool) {
 Margins margins_of(const Cell& cell) {
     Margins margins = cell.margins;
     if (!cell.machine) return margins;
-    for (const CarvingTool& tool : cell.machine->tools) {
+    for (const CuttingTool& tool : cell.machine->tools) {
         margins.spoil = std::max(margins.spoil, depth_under_the_base(tool) + above_the_table);
     }
     return margins;
 }
 
-CarvingBlock choose_block(const Cell& cell, Vec3 piece_size) {
+StockBlock choose_block(const Cell& cell, Vec3 piece_size) {
     assert(!cell.stock.empty());
     const Margins margins = margins_of(cell);
     const Vec3 needed = piece_size + Vec3{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
-    CarvingBlock best;
+    StockBlock best;
     std::optional<std::tuple<double, double, bool>> least;
-    const auto consider = [&](CarvingBlock block, double lacks) {
+    const auto consider = [&](StockBlock block, double lacks) {
         const bool needs_saw = !block.offcuts.empty();
         const std::tuple key(lacks, volume(block.size) + (needs_saw ? foam_for_a_saw_cut : 0), needs_saw);
         if (least && !(key < *least)) return;
@@ -118,7 +118,7 @@ CarvingBlock choose_block(const Cell& cell, Vec3 piece_size) {
         best = std::move(block);
     };
     for (std::size_t i = 0; i < cell.stock.size(); ++i) {
-        std::optional<CarvingBlock> smaller = cell.stock[i].is_sawn ? sawn(cell.stock[i], needed) : std::nullopt;
+        std::optional<StockBlock> smaller = cell.stock[i].is_sawn ? sawn(cell.stock[i], needed) : std::nullopt;
         if (!smaller || smaller->offcuts.empty()) {
             const Vec3 size = cell.stock[i].size;
             consider({i, false, false, size, true, {}}, lack(needed, size));

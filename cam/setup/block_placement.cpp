@@ -30,8 +30,8 @@ Pose table_in_cell(const Cell& cell, double angle) {
     return {Pose{}.row, {cell.table.centre_x, cell.table.centre_y, cell.table.height}};
 }
 
-Pose setup_in_cell(const Cell& cell, double spoil, const BlockPlacement& placement, std::size_t direction) {
-    return table_in_cell(cell, placement.table_angle(direction)) * setup_in_table(placement, spoil);
+Pose setup_in_cell(const Cell& cell, double spoil, const BlockPlacement& placement, std::size_t orientation) {
+    return table_in_cell(cell, placement.table_angle(orientation)) * setup_in_table(placement, spoil);
 }
 
 double inside_table(const Cell& cell, Vec3 block_size, const BlockPlacement& placement) {

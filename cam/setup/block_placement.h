@@ -1,7 +1,7 @@
 // Where the block of a setup stands on the table, and to which angle a rotary table is turned for each direction.
 //
 // Values; mm and radians. The default is the middle of the block over the middle of the table, its sides along those
-// of the table (tests/cam/setup/placement/work_envelope_test.cpp).
+// of the table (tests/cam/setup/placement/machine_reachability_test.cpp).
 
 #pragma once
 
@@ -19,7 +19,7 @@ struct BlockPlacement {
     double turn = 0;                   // of the block about the vertical through its middle, from x towards y
     std::vector<double> table_angles;  // of a rotary table, one per direction of the setup; empty: 0 for all
     // Precondition: direction < table_angles.size(), or it is empty.
-    double table_angle(std::size_t direction) const { return table_angles.empty() ? 0 : table_angles[direction]; }
+    double table_angle(std::size_t orientation) const { return table_angles.empty() ? 0 : table_angles[orientation]; }
     bool operator==(const BlockPlacement&) const = default;
 };
 
@@ -29,8 +29,8 @@ Pose setup_in_table(const BlockPlacement& placement, double spoil);
 // The table's frame in the cell: of a rotary table turned by an angle; of a fixed one its middle, whatever the angle.
 Pose table_in_cell(const Cell& cell, double angle);
 
-// The setup frame in the cell while a direction is carved; equal to setup_in_cell(cell, spoil) for the default.
-Pose setup_in_cell(const Cell& cell, double spoil, const BlockPlacement& placement, std::size_t direction);
+// The setup frame in the cell while a direction is milled; equal to setup_in_cell(cell, spoil) for the default.
+Pose setup_in_cell(const Cell& cell, double spoil, const BlockPlacement& placement, std::size_t orientation);
 
 // By how much a block of a size stays inside the table's edge (mm, negative: it hangs over): the least over its
 // corners; of a rotary table inside its rim.

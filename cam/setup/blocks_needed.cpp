@@ -8,14 +8,14 @@
 #include <limits>
 
 #include "cam/setup/block.h"
-#include "cam/setup/envelope.h"
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
+#include "cam/setup/stock_fit.h"
 #include "segment/mesh/boxes_needed.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double rounding = 1e-6;  // mm, as in block.cpp and envelope.cpp
+constexpr double rounding = 1e-6;  // mm, as in block.cpp and stock_fit.cpp
 
 bool is_within(Vec3 a, Vec3 b) {
     return a.x <= b.x + rounding && a.y <= b.y + rounding && a.z <= b.z + rounding;

@@ -1,5 +1,5 @@
 // Every base is laid out in its block and judged on samples with its own few directions; the best ones are judged again
-// by height maps, until the best of all is one of them. Rays of the samples (segment/access/piece_reach.h) and
+// by height fields, until the best of all is one of them. Rays of the samples (segment/access/piece_access.h) and
 // O(directions x triangles) for each base that is mapped.
 
 #include "cam/setup/choose_setup.h"
@@ -12,14 +12,14 @@
 #include <numbers>
 #include <tuple>
 
-#include "cam/setup/envelope.h"
-#include "cam/setup/held_directions.h"
-#include "cam/setup/mapped_reach.h"
+#include "cam/setup/mapped_access.h"
 #include "cam/setup/paint_narrow.h"
 #include "cam/setup/placement/place_block.h"
+#include "cam/setup/reachable_directions.h"
 #include "cam/setup/standing_sections.h"
+#include "cam/setup/stock_fit.h"
 #include "cam/setup/undercut.h"
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 #include "segment/access/tool_fit.h"
 #include "segment/mesh/footprint.h"
 
@@ -100,7 +100,7 @@ Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     turn(turned);
     const auto fits = [&](Setup& lying, const Cell& stocked) {
         lying.block = choose_block(stocked, lying.box.size());
-        return check_envelope(lying, cell).fits();
+        return check_stock_fit(lying, cell).fits();
     };
     if (fits(setup, cell)) return setup;
     if (fits(turned, cell)) return turned;
@@ -128,9 +128,9 @@ double ignored_mm2(const TriangleMesh& mesh) {
     return area;
 }
 
-SetupDirection described(const ChosenDirection& chosen, const Setup& setup, double area_mm2) {
-    SetupDirection direction;
-    direction.out = chosen.direction;
+ToolOrientation described(const ChosenDirection& chosen, const Setup& setup, double area_mm2) {
+    ToolOrientation direction;
+    direction.tool_axis = chosen.direction;
     direction.tilt_deg = std::acos(std::clamp(dot(chosen.direction, setup.up), -1.0, 1.0)) / degree;
     direction.gained_share = area_mm2 > 0 ? chosen.gained_mm2 / area_mm2 : 0;
     return direction;
@@ -139,19 +139,19 @@ SetupDirection described(const ChosenDirection& chosen, const Setup& setup, doub
 double too_narrow_mm2(const ChosenDirections& directions, const std::vector<bool>& is_narrow, double area_each_mm2) {
     std::size_t count = 0;
     for (std::size_t row = 0; row < is_narrow.size(); ++row) {
-        if (is_narrow[row] && directions.samples[row] == SampleReach::reached) ++count;
+        if (is_narrow[row] && directions.samples[row] == SampleAccess::reached) ++count;
     }
     return area_each_mm2 * static_cast<double>(count);
 }
 
 // Of what the maps found to be reached: what the holder keeps out is not counted a second time.
-double too_narrow_mm2(const MappedReach& mapped, const SurfaceSamples& samples, const std::vector<bool>& is_narrow) {
+double too_narrow_mm2(const MappedAccess& mapped, const SurfaceSamples& samples, const std::vector<bool>& is_narrow) {
     double count = 0;
     for (std::size_t row = 0; row < is_narrow.size(); ++row) {
         if (is_narrow[row]) count += static_cast<double>(mapped.reached[samples.sample[row].triangle]);
     }
-    const SurfaceReach& reach = mapped.reach;
-    const double reached_mm2 = reach.area_mm2 - reach.hidden_mm2 - reach.steep_mm2 - reach.holder_mm2;
+    const SurfaceAccess& access = mapped.access;
+    const double reached_mm2 = access.area_mm2 - access.hidden_mm2 - access.steep_mm2 - access.holder_mm2;
     return std::min(samples.area_each_mm2 * count, std::max(0.0, reached_mm2));
 }
 
@@ -180,13 +180,13 @@ class Choice {
         SetupChoice result;
         if (!states.empty()) result.states = std::move(states[setups_.front().base_number]);
         if (!result.states.empty())
-            paint_narrow(*piece_.mesh, reach_->samples->scan->samples, is_narrow_, result.states);
+            paint_narrow(*piece_.mesh, access_->samples->scan->samples, is_narrow_, result.states);
         result.setups = std::move(setups_);
         return result;
     }
 
  private:
-    PieceReachOptions reach_options(bool asks_dense) const {
+    PieceAccessOptions access_options(bool asks_dense) const {
         return {tilt_of(cell_, options_),
                 {options_.max_directions},
                 options_.samples,
@@ -195,19 +195,19 @@ class Choice {
     }
 
     // Without the foam that stays, which only maps tell, a setup holds less.
-    void add_workholding(Setup& setup, const FoamPoints* foam) const {
+    void add_workholding(Setup& setup, const StockPoints* stock_points) const {
         if (!cell_.machine) return;
-        setup.workholding = check_workholding(standing_sections(*piece_.mesh, setup, foam), setup, cell_);
+        setup.workholding = check_workholding(standing_sections(*piece_.mesh, setup, stock_points), setup, cell_);
     }
 
     // Which directions the arm holds over a piece that lies on one of bases_.
-    HeldDirections held_of_base() const {
+    ReachableDirections held_of_base() const {
         return [this](const PieceBase& base, std::span<const Vec3> directions) {
             const auto laid = std::find_if(setups_.begin(), setups_.end(),
                                            [&](const Setup& s) { return s.base_number == base.number; });
             std::vector<Vec3> in_setup;
             for (const Vec3& d : directions) in_setup.push_back(rotate(laid->piece_in_setup, d));
-            std::vector<std::uint8_t> held = held_directions(cell_, laid->box, laid->spoil, in_setup);
+            std::vector<std::uint8_t> held = reachable_directions(cell_, laid->box, laid->spoil, in_setup);
             for (std::size_t d = 0; options_.is_allowed && d < held.size(); ++d) {
                 if (!options_.is_allowed(directions[d])) held[d] = 0;
             }
@@ -219,46 +219,46 @@ class Choice {
     void ask_dense(Setup& setup) const {
         const auto base = std::find_if(bases_.begin(), bases_.end(),
                                        [&](const PieceBase& b) { return b.number == setup.base_number; });
-        const BaseReach reach = base_reach(*reach_->samples, *base, reach_options(true), held_of_base());
-        describe_further(setup, reach);
+        const BaseAccess access = base_access(*access_->samples, *base, access_options(true), held_of_base());
+        describe_further(setup, access);
     }
 
-    void describe_further(Setup& setup, const BaseReach& of_base) const {
+    void describe_further(Setup& setup, const BaseAccess& of_base) const {
         const double area_mm2 = of_base.area_mm2;
         const double unreachable = of_base.directions.by_all.total_mm2(tilt_of(cell_, options_));
-        setup.reach.all_directions_share = area_mm2 > 0 ? unreachable / area_mm2 : 0;
-        setup.reach.further.reset();
-        if (of_base.directions.further) setup.reach.further = described(*of_base.directions.further, setup, area_mm2);
+        setup.access.all_directions_share = area_mm2 > 0 ? unreachable / area_mm2 : 0;
+        setup.access.further.reset();
+        if (of_base.directions.further) setup.access.further = described(*of_base.directions.further, setup, area_mm2);
     }
 
     void judge_on_samples() {
-        const PieceReachOptions options = reach_options(false);
-        reach_ = piece_reach(piece_, bases_, options, held_of_base());
-        const SampledScan& scan = *reach_->samples->scan;
+        const PieceAccessOptions options = access_options(false);
+        access_ = piece_access(piece_, bases_, options, held_of_base());
+        const SampledScan& scan = *access_->samples->scan;
         is_narrow_.assign(scan.samples.sample.size(), false);
         if (options_.mapped > 0 || options_.count_narrow) {
             std::vector<bool> is_cap(piece_.mesh->triangles.size());
             for (std::size_t t = 0; t < is_cap.size(); ++t) is_cap[t] = cap_of(*piece_.mesh, t) != no_cap;
             is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {smallest_radius(cell_), 0});
         }
-        for (std::size_t i = 0; i < bases_.size(); ++i) fill(setups_[i], reach_->bases[i], options.tilt_deg);
+        for (std::size_t i = 0; i < bases_.size(); ++i) fill(setups_[i], access_->bases[i], options.tilt_deg);
     }
 
-    void fill(Setup& setup, const BaseReach& of_base, double tilt_deg) const {
+    void fill(Setup& setup, const BaseAccess& of_base, double tilt_deg) const {
         const ChosenDirections& directions = of_base.directions;
-        SurfaceReach& reach = setup.reach;
-        reach.area_mm2 = of_base.area_mm2;
-        reach.ignored_mm2 = ignored_mm2(*piece_.mesh);
+        SurfaceAccess& access = setup.access;
+        access.area_mm2 = of_base.area_mm2;
+        access.ignored_mm2 = ignored_mm2(*piece_.mesh);
         for (const ChosenDirection& d : directions.chosen) {
-            reach.directions.push_back(described(d, setup, reach.area_mm2));
+            access.orientations.push_back(described(d, setup, access.area_mm2));
         }
-        reach.hidden_mm2 = directions.by_chosen.hidden_mm2 + directions.by_chosen.caps_mm2;
-        reach.steep_mm2 = directions.by_chosen.steep_mm2;
-        reach.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, reach_->samples->scan->samples.area_each_mm2);
-        reach.steep_counts = tilt_deg >= steep_counts_from_deg;
-        reach.narrow_counts = options_.count_narrow;
+        access.hidden_mm2 = directions.by_chosen.hidden_mm2 + directions.by_chosen.caps_mm2;
+        access.steep_mm2 = directions.by_chosen.steep_mm2;
+        access.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, access_->samples->scan->samples.area_each_mm2);
+        access.steep_counts = tilt_deg >= steep_counts_from_deg;
+        access.narrow_counts = options_.count_narrow;
         describe_further(setup, of_base);
-        reach.is_arm_checked = cell_.machine.has_value();
+        access.is_arm_checked = cell_.machine.has_value();
         const Facing sums = facing(*piece_.mesh, setup.up, setup.base);
         setup.undercut = sums.undercut();
         setup.undercut_by_count = sums.undercut_by_count();
@@ -271,49 +271,49 @@ class Choice {
         mapped.up = setup.up;
         mapped.piece_in_setup = setup.piece_in_setup;
         mapped.block = setup.block_box();
-        for (const SetupDirection& d : setup.reach.directions) mapped.directions.push_back(d.out);
+        for (const ToolOrientation& d : setup.access.orientations) mapped.directions.push_back(d.tool_axis);
         mapped.tool = deepest_tool(cell_);
         mapped.smallest_ball_radius = smallest_radius(cell_);
-        mapped.steep_counts = setup.reach.steep_counts;
-        MappedReach result = mapped_reach(mapped, options_.map);
-        SurfaceReach& reach = result.reach;
-        reach.too_narrow_mm2 = too_narrow_mm2(result, reach_->samples->scan->samples, is_narrow_);
-        reach.narrow_counts = setup.reach.narrow_counts;
-        reach.all_directions_share = setup.reach.all_directions_share;
-        reach.further = setup.reach.further;
-        reach.is_arm_checked = setup.reach.is_arm_checked;
-        setup.reach = std::move(reach);
-        add_workholding(setup, result.foam ? &*result.foam : nullptr);
+        mapped.steep_counts = setup.access.steep_counts;
+        MappedAccess result = mapped_access(mapped, options_.map);
+        SurfaceAccess& access = result.access;
+        access.too_narrow_mm2 = too_narrow_mm2(result, access_->samples->scan->samples, is_narrow_);
+        access.narrow_counts = setup.access.narrow_counts;
+        access.all_directions_share = setup.access.all_directions_share;
+        access.further = setup.access.further;
+        access.is_arm_checked = setup.access.is_arm_checked;
+        setup.access = std::move(access);
+        add_workholding(setup, result.stock_points ? &*result.stock_points : nullptr);
         return std::move(result.states);
     }
 
     static long steps(double share) { return std::lround(share / equal_share); }
     // The largest share out of reach with which a setup is preferred for its workholding: the cell's limit, or that of
     // the setup that leaves least.
-    double most_for_workholding() const {
+    double max_for_workholding() const {
         double least = 1;
         for (const Setup& s : setups_) {
-            if (check_envelope(s, cell_).fits()) least = std::min(least, s.reach.unreachable_share());
+            if (check_stock_fit(s, cell_).fits()) least = std::min(least, s.access.unreachable_share());
         }
         return cell_.machine ? std::max(cell_.machine->max_unreachable, least + equal_share) : least;
     }
 
     // What counts for the order before what only maps tell.
     auto before_foam(const Setup& s, double most) const {
-        const bool holds = s.workholding && s.workholding->passes() && s.reach.unreachable_share() <= most;
-        return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(), !holds,
-                          steps(s.reach.unreachable_share()));
+        const bool holds = s.workholding && s.workholding->passes() && s.access.unreachable_share() <= most;
+        return std::tuple(options_.base != s.base_number, !check_stock_fit(s, cell_).fits(), !holds,
+                          steps(s.access.unreachable_share()));
     }
 
     // Index of the setup that is judged by maps next: the first, or one as good, as long as fewer are mapped than
     // wanted.
     std::optional<std::size_t> next_to_map(std::size_t mapped) const {
         if (options_.mapped == 0) return std::nullopt;
-        if (setups_.front().reach.method == ReachMethod::sampled) return 0;
+        if (setups_.front().access.method == AccessMethod::sampled) return 0;
         if (mapped >= options_.mapped) return std::nullopt;
         const auto next = std::find_if(setups_.begin(), setups_.end(),
-                                       [](const Setup& s) { return s.reach.method == ReachMethod::sampled; });
-        const double most = most_for_workholding();
+                                       [](const Setup& s) { return s.access.method == AccessMethod::sampled; });
+        const double most = max_for_workholding();
         if (next == setups_.end() || before_foam(*next, most) != before_foam(setups_.front(), most)) {
             return std::nullopt;
         }
@@ -323,14 +323,14 @@ class Choice {
     // Equal shares are compared as whole steps, because a comparison with a tolerance is no order. Of two, what is
     // known by maps comes first: of samples no foam is known.
     void rank() {
-        const double most = most_for_workholding();
+        const double most = max_for_workholding();
         const auto key = [&](const Setup& s) {
             const Vec3 size = s.block.size;
             const double block_mm3 = size.x * size.y * size.z;
-            return std::tuple_cat(
-                before_foam(s, most),
-                std::tuple(s.reach.method == ReachMethod::sampled, steps(s.reach.foam_mm3 / block_mm3),
-                           steps(s.reach.residue_mm3 / block_mm3), !s.block.offcuts.empty(), block_mm3, s.base_number));
+            return std::tuple_cat(before_foam(s, most), std::tuple(s.access.method == AccessMethod::sampled,
+                                                                   steps(s.access.foam_mm3 / block_mm3),
+                                                                   steps(s.access.rest_material_mm3 / block_mm3),
+                                                                   !s.block.offcuts.empty(), block_mm3, s.base_number));
         };
         std::stable_sort(setups_.begin(), setups_.end(),
                          [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
@@ -341,7 +341,7 @@ class Choice {
     const SetupOptions& options_;
     std::vector<PieceBase> bases_;
     std::vector<Setup> setups_;  // one per base
-    std::optional<PieceReach> reach_;
+    std::optional<PieceAccess> access_;
     std::vector<bool> is_narrow_;  // per sample
 };
 
@@ -354,7 +354,7 @@ double max_tilt_deg(const Cell& cell) {
 double smallest_radius(const Cell& cell) {
     if (!cell.machine) return cell.tool.diameter / 2;
     double least = std::numeric_limits<double>::infinity();
-    for (const CarvingTool& tool : cell.machine->tools) {
+    for (const CuttingTool& tool : cell.machine->tools) {
         if (!is_drill(tool)) least = std::min(least, tool.diameter);
     }
     return least / 2;
@@ -367,16 +367,17 @@ SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOption
 
 bool fits_cell(const Piece& piece, const Cell& cell) {
     const std::vector<PieceBase> bases = bases_of(piece);
-    return std::any_of(bases.begin(), bases.end(),
-                       [&](const PieceBase& base) { return check_envelope(laid_out(piece, base, cell), cell).fits(); });
+    return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
+        return check_stock_fit(laid_out(piece, base, cell), cell).fits();
+    });
 }
 
 bool fits_cell_and_machine(const Piece& piece, const Cell& cell) {
     const std::vector<PieceBase> bases = bases_of(piece);
     return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
         Setup setup = laid_out(piece, base, cell);
-        if (!check_envelope(setup, cell).fits()) return false;
-        setup.reach.directions.push_back({setup.up, 0, 0, 0});
+        if (!check_stock_fit(setup, cell).fits()) return false;
+        setup.access.orientations.push_back({setup.up, 0, 0, 0});
         return fits_machine(setup, *piece.mesh, cell);
     });
 }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cam/setup/surface_reach.h"
+#include "cam/setup/surface_access.h"
 #include "segment/access/surface_samples.h"
 #include "segment/mesh/triangle_mesh.h"
 

@@ -1,5 +1,5 @@
 // How a piece is held and oriented: which cap lies on the table, from which directions the tool comes, how the piece is
-// turned, and the block it is carved from.
+// turned, and the block it is milled from.
 //
 // Values only; lengths in mm. Setup coordinates: z up, the piece's base plane (its lowest point, without a base) at z =
 // 0, the underside of the block at z = -spoil, the block's middle and the middle of the piece's box at x = y = 0, x
@@ -18,7 +18,7 @@
 #include "cam/cell/cell.h"
 #include "cam/setup/block.h"
 #include "cam/setup/block_placement.h"
-#include "cam/setup/surface_reach.h"
+#include "cam/setup/surface_access.h"
 #include "cam/setup/workholding.h"
 #include "segment/mesh/measure.h"
 
@@ -36,11 +36,11 @@ struct Setup {
     std::vector<std::uint16_t> tools;
 
     double spoil = 0;  // thickness of the layer under the piece that stays on the table
-    CarvingBlock block;
+    StockBlock block;
     BlockPlacement placement;  // of the block on the table
 
     std::optional<Workholding> workholding;  // nothing: not checked, in a cell without a machine
-    SurfaceReach reach;                      // what the tool reaches
+    SurfaceAccess access;                    // what the tool reaches
     double undercut = 0;                     // share of the projected area that faces down, base left out
     double undercut_by_count = 0;            // share of the triangles that face down, base left out
     double base_mm2 = 0;                     // projected area of the base; 0 without one
@@ -55,8 +55,8 @@ struct Setup {
     Box milled_box() const { return {{block_box().min.x, block_box().min.y, 0}, block_box().max}; }
 
     // From the tip into the spindle, in setup coordinates: a unit vector, to rounding.
-    Vec3 tool_axis(const SetupDirection& direction) const { return rotate(piece_in_setup, direction.out); }
-    Vec3 tool_axis(std::size_t direction) const { return tool_axis(reach.directions[direction]); }
+    Vec3 tool_axis(const ToolOrientation& orientation) const { return rotate(piece_in_setup, orientation.tool_axis); }
+    Vec3 tool_axis(std::size_t orientation) const { return tool_axis(access.orientations[orientation]); }
 
     bool operator==(const Setup&) const = default;
 };

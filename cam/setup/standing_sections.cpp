@@ -77,13 +77,13 @@ double smallest_width(const std::vector<Point2>& hull) {
         const Point2 a = hull[i];
         const Point2 side = minus(hull[(i + 1) % hull.size()], a);
         double most = 0;
-        double least_beside = 0;  // less than 0 only where a side is so short that rounding turns it
+        double min_beside = 0;  // less than 0 only where a side is so short that rounding turns it
         for (const Point2 p : hull) {
             const double beside = side.x * (p.y - a.y) - side.y * (p.x - a.x);
             most = std::max(most, beside);
-            least_beside = std::min(least_beside, beside);
+            min_beside = std::min(min_beside, beside);
         }
-        least = std::min(least, (most - least_beside) / std::hypot(side.x, side.y));
+        least = std::min(least, (most - min_beside) / std::hypot(side.x, side.y));
     }
     return least;
 }
@@ -209,8 +209,8 @@ class LowPart {
     double united_ = -std::numeric_limits<double>::infinity();
 };
 
-void add_foam(const FoamPoints& foam, double z, AreaMoments& sums) {
-    for (const Point2 p : foam.standing_up_to(z)) sums.add_square(p, foam.column_mm2());
+void add_stock(const StockPoints& stock_points, double z, AreaMoments& sums) {
+    for (const Point2 p : stock_points.standing_up_to(z)) sums.add_square(p, stock_points.column_mm2());
 }
 
 // The force at the top of the piece at which a section breaks.
@@ -259,7 +259,8 @@ std::optional<HoldingStand> stand_for(const std::vector<StandingSection>& sectio
 
 }  // namespace
 
-std::vector<StandingSection> standing_sections(const TriangleMesh& mesh, const Setup& setup, const FoamPoints* foam) {
+std::vector<StandingSection> standing_sections(const TriangleMesh& mesh, const Setup& setup,
+                                               const StockPoints* stock_points) {
     assert(!mesh.points.empty());
     const double top = highest_share * setup.box.max.z;
     LowPart part(mesh, setup, top);
@@ -267,7 +268,7 @@ std::vector<StandingSection> standing_sections(const TriangleMesh& mesh, const S
     for (int k = 0; k <= heights; ++k) {
         const double z = top * k / heights;
         AreaMoments sums = k == 0 ? part.base() : part.section_at(z);
-        if (foam != nullptr) add_foam(*foam, z, sums);
+        if (stock_points != nullptr) add_stock(*stock_points, z, sums);
         sections.push_back(measured(sums, z));
     }
     return sections;

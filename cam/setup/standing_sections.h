@@ -3,15 +3,15 @@
 //
 // mm, in setup coordinates. Of the piece only what is joined to the base below the section counts: what hangs down
 // beside it carries nothing. Areas and second moments are exact sums over edges (Green's theorem); those of the foam
-// are sums over the columns of FoamPoints, of which one counts where all of it stands from the base plane up. Without
+// are sums over the columns of StockPoints, of which one counts where all of it stands from the base plane up. Without
 // foam, a setup that is turned about z has the same sections to rounding (tests/cam/setup/workholding_test.cpp).
 
 #pragma once
 
 #include <vector>
 
-#include "cam/setup/foam_points.h"
 #include "cam/setup/setup.h"
+#include "cam/setup/stock_points.h"
 #include "cam/setup/workholding.h"
 #include "segment/mesh/polygon.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -31,7 +31,7 @@ struct StandingSection {
 // what is left around the piece; null where it is not known. Precondition: the mesh is closed and has a point.
 // O(triangles), and O(columns x height) of the foam.
 std::vector<StandingSection> standing_sections(const TriangleMesh& mesh, const Setup& setup,
-                                               const FoamPoints* foam = nullptr);
+                                               const StockPoints* stock_points = nullptr);
 
 // Preconditions: the cell has a machine, the block of the setup is one of its stock, and the first section is that at
 // 0.

@@ -31,7 +31,7 @@
 
 namespace qchopper {
 
-// A square block of foam that is left around the lowest part of a piece, on the spoil layer, until it is carved.
+// A square block of foam that is left around the lowest part of a piece, on the spoil layer, until it is milled.
 struct HoldingStand {
     double top = 0;   // above the base plane; from there on the piece holds itself
     double side = 0;  // of the square

@@ -1,7 +1,7 @@
-// The tool tells the height of its tip at each step (TipDilation::height), from the lower end on until it is as high as
-// the higher end.
+// The tool tells the height of its tip at each step (ToolDilation::height), from the lower end on until it is as high
+// as the higher end.
 //
-// A tip surface is known at the middles of cells, and at a vertical wall it jumps between two of them. A level that
+// A CL surface is known at the centres of cells, and at a vertical wall it jumps between two of them. A level that
 // keeps to the lower one stays up to a cell beside the edge: with cells of 0.5 mm up to 0.85 mm of foam on a wall
 // oblique to the map, where 0.75 mm are allowed. So where the surface falls by more than a ball does across a cell, the
 // height of the tip of the tool alone is computed at 15 places between the two middles, from the same map with the same
@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t sides_at_once = 256;
 
-Point2 middle(const HeightMap& tip, std::size_t cell) {
+Point2 middle(const HeightField& tip, std::size_t cell) {
     const std::size_t row = cell / tip.columns;
     const std::size_t column = cell % tip.columns;
     return {(static_cast<double>(column) + 0.5) * tip.cell, (static_cast<double>(row) + 0.5) * tip.cell};
@@ -39,13 +39,13 @@ Point2 middle(const HeightMap& tip, std::size_t cell) {
 
 }  // namespace
 
-CellSide::CellSide(const HeightMap& tip, std::uint64_t number)
+CellSide::CellSide(const HeightField& tip, std::uint64_t number)
     : cell(number / 2),
       next(cell + (number % 2 != 0 ? tip.columns : 1)),
       from(middle(tip, cell)),
       to(middle(tip, next)) {}
 
-EdgeRises::EdgeRises(const HeightMap& tip, const CellMask& mask, double jump, const TipDilation& tool) : tip_(tip) {
+EdgeRises::EdgeRises(const HeightField& tip, const CellMask& mask, double jump, const ToolDilation& tool) : tip_(tip) {
     assert(mask.size() == tip.height.size());
     for (std::size_t row = 0; row + 1 < tip.rows; ++row) {
         for (std::size_t column = 0; column + 1 < tip.columns; ++column) {
@@ -78,7 +78,7 @@ std::optional<double> EdgeRises::share_below(std::uint64_t side, double z) const
     return static_cast<double>(above - rise) / steps;
 }
 
-bool EdgeRises::rise_along(std::uint64_t side, const TipDilation& tool, float* rise) const {
+bool EdgeRises::rise_along(std::uint64_t side, const ToolDilation& tool, float* rise) const {
     const CellSide ends(tip_, side);
     const bool is_up = tip_.height[ends.cell] < tip_.height[ends.next];
     // Holder or foam may keep the tip off anywhere between.

@@ -1,4 +1,4 @@
-// How a tip surface rises between the middles of two neighbouring cells where there is an edge between them;
+// How a CL surface rises between the centres of two neighbouring cells where there is an edge between them;
 // edge_rises.cpp says why that is asked.
 //
 // mm, in the map.
@@ -10,13 +10,13 @@
 #include <optional>
 #include <vector>
 
-#include "cam/stock/tip_surface.h"
-#include "cam/stock/tip_view.h"
+#include "cam/stock/cl_surface.h"
+#include "cam/stock/cl_surface_view.h"
 #include "segment/mesh/polygon.h"
 
 namespace qchopper {
 
-// From the middle of a cell to that of the next one of its row or column. Its number is twice that of the cell, and one
+// From the centre of a cell to that of the next one of its row or column. Its number is twice that of the cell, and one
 // more if it runs along a column.
 struct CellSide {
     std::size_t cell;
@@ -24,17 +24,17 @@ struct CellSide {
     Point2 from;
     Point2 to;
 
-    CellSide(const HeightMap& tip, std::uint64_t number);
+    CellSide(const HeightField& tip, std::uint64_t number);
     Point2 at(double share) const { return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)}; }
 };
 
 class EdgeRises {
  public:
-    // Of the sides, with a rise above `jump`, of all squares of four middles that begin at a cell of the mask. `tool`
+    // Of the sides, with a rise above `jump`, of all squares of four centres that begin at a cell of the mask. `tool`
     // is what the surface was made with; it may have been raised since, by holder or foam. The map must outlive it. On
     // several threads; the result does not depend on them. O(cells + sides * (radius / cell)^2), 72 bytes a side and 8
     // a cell.
-    EdgeRises(const HeightMap& tip, const CellMask& mask, double jump, const TipDilation& tool);
+    EdgeRises(const HeightField& tip, const CellMask& mask, double jump, const ToolDilation& tool);
 
     // How far from its lower end, as a share in steps of a sixteenth, the surface over a side is not above a height
     // that lies between those of its ends. Nothing if its higher end is not where the tool alone asks for it.
@@ -46,9 +46,9 @@ class EdgeRises {
 
     // The highest so far at the steps from the lower end on, but for the first and the last: as far as it lies below
     // the higher end. False if the edge is not the tool's.
-    bool rise_along(std::uint64_t side, const TipDilation& tool, float* rise) const;
+    bool rise_along(std::uint64_t side, const ToolDilation& tool, float* rise) const;
 
-    const HeightMap& tip_;
+    const HeightField& tip_;
     std::vector<std::uint64_t> sides_;   // ascending
     std::vector<std::uint32_t> number_;  // of each side of the map: its index in sides_, or none
     std::vector<std::uint8_t> is_known_;

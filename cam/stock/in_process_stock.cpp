@@ -21,8 +21,8 @@
 
 #include "base/box.h"
 #include "base/parallel.h"
-#include "cam/stock/tip_surface.h"
-#include "segment/raster/disc_max.h"
+#include "cam/stock/cl_surface.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
@@ -31,8 +31,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr std::size_t cells_at_once = 64;                    // of a row
-constexpr double least_way = 1e-6;                           // mm across; a shorter line goes straight down
-constexpr double least_sine = 1e-9;                          // of the angle of a line and a row
+constexpr double min_way = 1e-6;                             // mm across; a shorter line goes straight down
+constexpr double min_sine = 1e-9;                            // of the angle of a line and a row
 constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
 
 // Where a line enters and leaves a box: from the higher parameter to the lower.
@@ -57,7 +57,7 @@ Span span_in(const Box& box, Vec3 point, Vec3 along) {
     return span;
 }
 
-// The cells of a row or a column whose middles lie between two places.
+// The cells of a row or a column whose centres lie between two places.
 struct CellSpan {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -130,7 +130,7 @@ struct LowestPlaces {
 };
 
 // Whether a point of a map's frame lies above the map.
-bool is_above(const HeightMap& map, Vec3 p) {
+bool is_above(const HeightField& map, Vec3 p) {
     const double column = p.x / map.cell;
     const double row = p.y / map.cell;
     if (!(column >= 0 && row >= 0)) return false;
@@ -143,9 +143,9 @@ bool is_above(const HeightMap& map, Vec3 p) {
 class Raised {
  public:
     // `ray_in_map`: from the map that is asked for.
-    Raised(HeightMap down_to, const Pose& ray_in_map) : down_to_(std::move(down_to)), ray_in_map_(ray_in_map) {
+    Raised(HeightField down_to, const Pose& ray_in_map) : down_to_(std::move(down_to)), ray_in_map_(ray_in_map) {
         columns_ = (down_to_.columns + square - 1) / square;
-        top_.assign(columns_ * ((down_to_.rows + square - 1) / square), HeightMap::nothing);
+        top_.assign(columns_ * ((down_to_.rows + square - 1) / square), HeightField::nothing);
         for (std::size_t row = 0; row < down_to_.rows; ++row) {
             for (std::size_t column = 0; column < down_to_.columns; ++column) {
                 float& top = top_[row / square * columns_ + column / square];
@@ -170,11 +170,11 @@ class Raised {
         const double rows_end = std::min((row + 1) * wide, static_cast<double>(down_to_.rows) * down_to_.cell);
         steps = std::min(steps, steps_within(p.x, column * wide + inside, columns_end - inside, along.x));
         steps = std::min(steps, steps_within(p.y, row * wide + inside, rows_end - inside, along.y));
-        return 1 + static_cast<std::size_t>(std::clamp(steps, 0.0, most_steps));
+        return 1 + static_cast<std::size_t>(std::clamp(steps, 0.0, max_steps));
     }
 
  private:
-    static constexpr double most_steps = 1e6;
+    static constexpr double max_steps = 1e6;
 
     // How often `step` may be added so that it stays between two values; negative if it is not there now.
     static double steps_within(double at, double low, double high, double step) {
@@ -183,7 +183,7 @@ class Raised {
         return std::floor((step > 0 ? high - at : low - at) / step);
     }
 
-    HeightMap down_to_;
+    HeightField down_to_;
     Pose ray_in_map_;
     std::size_t columns_ = 0;
     std::vector<float> top_;  // of each square
@@ -192,12 +192,12 @@ class Raised {
 class Rays {
  public:
     // The block counts as larger by `more_cells`.
-    Rays(const Setup& setup, const HeightMap& frame, std::vector<Raised> others, double more_cells)
+    Rays(const Setup& setup, const HeightField& frame, std::vector<Raised> others, double more_cells)
         : others_(std::move(others)) {
-        const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_map);
+        const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_field);
         setup_in_map_ = map_in_setup;
-        out_ = rotate(map_in_setup, {0, 0, 1});
-        const double across = std::hypot(out_.x, out_.y);
+        tool_axis_ = rotate(map_in_setup, {0, 0, 1});
+        const double across = std::hypot(tool_axis_.x, tool_axis_.y);
         box_ = setup.block_box();
         const Vec3 more = more_cells * frame.cell * Vec3{1, 1, across};
         box_.min = box_.min - more;
@@ -206,19 +206,19 @@ class Rays {
 
     // The highest foam over a cell whose own direction removed all above `top`.
     float highest(double x, double y, double top, double step) const {
-        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
-        if (span.is_empty()) return HeightMap::nothing;
+        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), tool_axis_);
+        if (span.is_empty()) return HeightField::nothing;
         const double begin = std::min(span.high, top);
         const double z = first_left({x, y, begin}, -step, begin - span.low);
-        return z == infinite ? HeightMap::nothing : static_cast<float>(std::min(begin, z + step));
+        return z == infinite ? HeightField::nothing : static_cast<float>(std::min(begin, z + step));
     }
 
     // The lowest one.
     float lowest(double x, double y, double top, double step) const {
-        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
-        if (span.is_empty()) return HeightMap::nothing;
+        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), tool_axis_);
+        if (span.is_empty()) return HeightField::nothing;
         const double z = first_left({x, y, span.low}, step, std::min(span.high, top) - span.low);
-        return z == infinite ? HeightMap::nothing : static_cast<float>(std::max(span.low, z - step));
+        return z == infinite ? HeightField::nothing : static_cast<float>(std::max(span.low, z - step));
     }
 
  private:
@@ -247,15 +247,15 @@ class Rays {
 
     std::vector<Raised> others_;
     Pose setup_in_map_;  // takes map coordinates to those of the setup
-    Vec3 out_;
+    Vec3 tool_axis_;
     Box box_;
 };
 
 }  // namespace
 
-ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack, FoamCells kind)
+ToolSweep::ToolSweep(const CuttingTool& tool, double cell, double slack, StockCells kind)
     : cell_(cell), above_(sweep_rings, 0) {
-    const double beside = slack + (kind == FoamCells::whole ? half_diagonal * cell : 0);
+    const double beside = slack + (kind == StockCells::whole ? half_diagonal * cell : 0);
     outer_ = 0.5 * tool.diameter - beside;
     is_ball_ = tool.shape == ToolShape::ball;
     for (std::size_t i = 0; i < sweep_rings && outer_ > 0; ++i) {
@@ -264,7 +264,7 @@ ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack, FoamCel
     }
 }
 
-void ToolSweep::move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
+void ToolSweep::move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
     assert(map.cell == cell_ && other.height.size() == map.height.size());
     if (!(outer_ > 0)) return;
     if (is_ball_ || from.z == to.z) return sweep(map, other, from, to);
@@ -276,9 +276,9 @@ void ToolSweep::move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const
     }
 }
 
-void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
+void ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
     const double length = std::hypot(to.x - from.x, to.y - from.y);
-    const bool is_point = !(length > least_way);
+    const bool is_point = !(length > min_way);
     if (is_point) from = to = {to.x, to.y, std::min(from.z, to.z)};
     const Vec3 along = is_point ? Vec3{1, 0, 0} : Vec3{(to.x - from.x) / length, (to.y - from.y) / length, 0};
     const double end = is_point ? 0 : length;
@@ -290,7 +290,7 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
         const double y = cell_ * (static_cast<double>(row) + 0.5) - from.y;
         double low = std::min(from.x, to.x) - outer_;
         double high = std::max(from.x, to.x) + outer_;
-        if (std::abs(along.y) > least_sine) {
+        if (std::abs(along.y) > min_sine) {
             // The columns that are near to the line in this row.
             const double middle = from.x + y * along.x / along.y;
             low = std::max(low, middle - outer_ / std::abs(along.y));
@@ -314,28 +314,28 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
     }
 }
 
-InProcessStock::InProcessStock(const Setup& setup, FoamCells kind) : setup_(&setup), kind_(kind) {}
+InProcessStock::InProcessStock(const Setup& setup, StockCells kind) : setup_(&setup), kind_(kind) {}
 
 template <class Height>
-HeightMap InProcessStock::mapped(std::size_t direction, const HeightMap& frame, const Height& height_of) const {
+HeightField InProcessStock::mapped(std::size_t orientation, const HeightField& frame, const Height& height_of) const {
     std::vector<Raised> others;
-    const HeightMap* own = nullptr;
+    const HeightField* own = nullptr;
     for (const Removed& removed : removed_) {
-        if (removed.direction == direction) {
+        if (removed.orientation == orientation) {
             own = &removed.down_to;
             continue;
         }
         assert(removed.down_to.cell == frame.cell);
-        HeightMap raised = removed.down_to;
-        if (kind_ == FoamCells::whole) {
-            raised = disc_max(raised, std::numbers::sqrt2 * (frame.cell + 1e-6));
+        HeightField raised = removed.down_to;
+        if (kind_ == StockCells::whole) {
+            raised = dilate_by_disc(raised, std::numbers::sqrt2 * (frame.cell + 1e-6));
             for (float& height : raised.height) height += static_cast<float>(frame.cell);
         }
-        others.emplace_back(std::move(raised), removed.down_to.piece_in_map * inverse(frame.piece_in_map));
+        others.emplace_back(std::move(raised), removed.down_to.piece_in_field * inverse(frame.piece_in_field));
     }
     assert(own == nullptr || own->height.size() == frame.height.size());
-    const Rays rays(*setup_, frame, std::move(others), kind_ == FoamCells::whole ? 1 : 0);
-    HeightMap result = frame;
+    const Rays rays(*setup_, frame, std::move(others), kind_ == StockCells::whole ? 1 : 0);
+    HeightField result = frame;
     parallel_for(0, frame.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < frame.columns; ++column) {
             const double x = frame.cell * (static_cast<double>(column) + 0.5);
@@ -347,36 +347,36 @@ HeightMap InProcessStock::mapped(std::size_t direction, const HeightMap& frame, 
     return result;
 }
 
-HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame) const {
-    return mapped(direction, frame, [&](const Rays& rays, double x, double y, double top) {
+HeightField InProcessStock::highest(std::size_t orientation, const HeightField& frame) const {
+    return mapped(orientation, frame, [&](const Rays& rays, double x, double y, double top) {
         return rays.highest(x, y, top, frame.cell);
     });
 }
 
-HeightMap InProcessStock::lowest(std::size_t direction, const HeightMap& frame) const {
-    return mapped(direction, frame,
+HeightField InProcessStock::lowest(std::size_t orientation, const HeightField& frame) const {
+    return mapped(orientation, frame,
                   [&](const Rays& rays, double x, double y, double top) { return rays.lowest(x, y, top, frame.cell); });
 }
 
-void InProcessStock::remove_above(std::size_t direction, const HeightMap& map) {
+void InProcessStock::remove_above(std::size_t orientation, const HeightField& map) {
     for (Removed& removed : removed_) {
-        if (removed.direction != direction) continue;
+        if (removed.orientation != orientation) continue;
         assert(removed.down_to.height.size() == map.height.size());
         for (std::size_t i = 0; i < map.height.size(); ++i) {
             removed.down_to.height[i] = std::min(removed.down_to.height[i], map.height[i]);
         }
         return;
     }
-    removed_.push_back({direction, map});
+    removed_.push_back({orientation, map});
 }
 
-bool InProcessStock::may_be_foam(Vec3 point) const {
+bool InProcessStock::may_be_stock(Vec3 point) const {
     const Box block = setup_->block_box();
     for (int i = 0; i < 3; ++i) {
         if (point[i] < block.min[i] || point[i] > block.max[i]) return false;
     }
     return std::none_of(removed_.begin(), removed_.end(), [&](const Removed& removed) {
-        return is_above(removed.down_to, setup_to_map(*setup_, removed.down_to, point));
+        return is_above(removed.down_to, setup_to_field(*setup_, removed.down_to, point));
     });
 }
 

@@ -1,10 +1,10 @@
-// The foam that stands after what has been carved so far, from any of the directions.
+// The foam that stands after what has been milled so far, from any of the directions.
 //
-// mm. It is the block less, for each direction, all above a height of its own map: along a direction carving removes
+// mm. It is the block less, for each direction, all above a height of its own map: along a direction milling removes
 // only what lies open above. Conservative: a point that may still be foam counts as foam
 // (tests/cam/stock/in_process_stock_test.cpp), so that there is never more foam in the way than is known; it may be
 // up to three cells more than there is. For what a flute has to cut at once that is too much beside a wall: foam can be
-// known at the middles of cells instead, where it is right to within a cell of the other directions.
+// known at the centres of cells instead, where it is right to within a cell of the other directions.
 
 #pragma once
 
@@ -13,31 +13,31 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 #include "cam/setup/setup.h"
-#include "segment/raster/height_map.h"
+#include "segment/raster/height_field.h"
 
 namespace qchopper {
 
-enum class FoamCells : std::uint8_t { whole, middles };  // what a height speaks for
+enum class StockCells : std::uint8_t { whole, centres };  // what a height speaks for
 
 // Lowers maps, whose cells tell how high foam stands, by a tool on its way. A whole cell is lowered only if all of it
 // lies under the tool, and to the highest point of the tool over it.
 class ToolSweep {
  public:
     // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
-    ToolSweep(const CarvingTool& tool, double cell, double slack = 0, FoamCells kind = FoamCells::whole);
+    ToolSweep(const CuttingTool& tool, double cell, double slack = 0, StockCells kind = StockCells::whole);
 
     // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(cells passed), but for
     // tools other than balls on a slope O(length / cell * (radius / cell)^2).
-    void move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
+    void move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
 
  private:
     // Precondition: the tool is a ball or the line is level.
-    void sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
+    void sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
 
     double cell_;
-    double outer_;  // farthest middle of a cell that is under the tool
+    double outer_;  // farthest centre of a cell that is under the tool
     bool is_ball_;
     std::vector<float> above_;  // by the square of the distance from the axis: the tool's highest point over the cell
 };
@@ -45,36 +45,36 @@ class ToolSweep {
 class InProcessStock {
  public:
     // The whole block. The setup must outlive it.
-    explicit InProcessStock(const Setup& setup, FoamCells kind = FoamCells::whole);
+    explicit InProcessStock(const Setup& setup, StockCells kind = StockCells::whole);
 
     // The highest foam along a direction over each whole cell, or over its middle, of `frame`, whose heights are not
-    // looked at; `nothing` where there is none. The frame is a map of that direction (target_map()); all frames have
-    // cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam.
-    HeightMap highest(std::size_t direction, const HeightMap& frame) const;
+    // looked at; `nothing` where there is none. The frame is a map of that direction (piece_height_field()); all frames
+    // have cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam.
+    HeightField highest(std::size_t orientation, const HeightField& frame) const;
 
     // The same for the lowest foam: all of it lies above. Under it there may be air, where other directions or the
     // sides of the block end it.
-    HeightMap lowest(std::size_t direction, const HeightMap& frame) const;
+    HeightField lowest(std::size_t orientation, const HeightField& frame) const;
 
     // All above the heights of a map of a direction is gone: infinite where nothing was removed. The maps of one
     // direction must have the same cells.
-    void remove_above(std::size_t direction, const HeightMap& map);
+    void remove_above(std::size_t orientation, const HeightField& map);
 
     // Whether a point in setup coordinates may be foam. O(directions).
-    bool may_be_foam(Vec3 point) const;
+    bool may_be_stock(Vec3 point) const;
 
  private:
     struct Removed {
-        std::size_t direction = 0;
-        HeightMap down_to;
+        std::size_t orientation = 0;
+        HeightField down_to;
     };
-    // Per cell what a function of its rays, the middle of the cell and the height down to which its own direction has
+    // Per cell what a function of its rays, the centre of the cell and the height down to which its own direction has
     // removed all says.
     template <class Height>
-    HeightMap mapped(std::size_t direction, const HeightMap& frame, const Height& height_of) const;
+    HeightField mapped(std::size_t orientation, const HeightField& frame, const Height& height_of) const;
 
     const Setup* setup_;
-    FoamCells kind_;
+    StockCells kind_;
     std::vector<Removed> removed_;
 };
 

@@ -1,11 +1,11 @@
-// The lowest and the highest foam within a distance of each cell (disc_max.h).
+// The lowest and the highest foam within a distance of each cell (disc_dilation.h).
 
 #include "cam/stock/roughing_limit.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "segment/raster/disc_max.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
@@ -15,20 +15,20 @@ constexpr float closed = 1e6F;    // mm, of a tip
 
 }  // namespace
 
-void raise_to_foam(HeightMap& tip, HeightMap lowest, const CarvingTool& tool, double level) {
+void stay_near_stock(HeightField& tip, HeightField lowest, const CuttingTool& tool, double level) {
     assert(lowest.height.size() == tip.height.size());
-    for (float& z : lowest.height) z = z == HeightMap::nothing ? z : -z;
-    const HeightMap negative = disc_max(lowest, 0.5 * tool.diameter + more_cells * tip.cell);
+    for (float& z : lowest.height) z = z == HeightField::nothing ? z : -z;
+    const HeightField negative = dilate_by_disc(lowest, 0.5 * tool.diameter + more_cells * tip.cell);
     for (std::size_t i = 0; i < tip.height.size(); ++i) {
-        if (negative.height[i] == HeightMap::nothing) continue;
+        if (negative.height[i] == HeightField::nothing) continue;
         tip.height[i] = std::max(tip.height[i], -negative.height[i] - static_cast<float>(level));
     }
 }
 
-void close_beside_foam(HeightMap& tip, const HeightMap& foam, double beside) {
-    const HeightMap near = disc_max(foam, beside);
+void close_beside_stock(HeightField& tip, const HeightField& stock, double beside) {
+    const HeightField near = dilate_by_disc(stock, beside);
     for (std::size_t i = 0; i < tip.height.size(); ++i) {
-        if (near.height[i] == HeightMap::nothing) tip.height[i] = closed;
+        if (near.height[i] == HeightField::nothing) tip.height[i] = closed;
     }
 }
 

@@ -8,16 +8,16 @@
 #include <numbers>
 #include <utility>
 
-#include "segment/raster/disc_max.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double least_part = 2;       // mm of a part of a pass that is worth a way there
-constexpr double touching = 1.5;       // mm
-constexpr double square = 8;           // cells of foam on each side
-constexpr float rounding = 1e-3F;      // mm, of heights in single precision
-constexpr double least_length = 1e-6;  // mm; rounding leaves less
+constexpr double min_part = 2;       // mm of a part of a pass that is worth a way there
+constexpr double touching = 1.5;     // mm
+constexpr double square = 8;         // cells of foam on each side
+constexpr float rounding = 1e-3F;    // mm, of heights in single precision
+constexpr double min_length = 1e-6;  // mm; rounding leaves less
 
 // Of a pass, in mm from its beginning.
 struct Stretch {
@@ -52,16 +52,16 @@ std::vector<Stretch> blocked_stretches(const Pass& pass, double apart, const IsF
     return blocked;
 }
 
-// None is short, and none is near to another or to an end of the pass: short parts would be carved never, not even when
+// None is short, and none is near to another or to an end of the pass: short parts would be milled never, not even when
 // all foam is gone.
 std::vector<Stretch> without_short_parts(const std::vector<Stretch>& blocked, double length) {
     std::vector<Stretch> wide;
     for (const Stretch& own : blocked) {
-        const double more = std::max(0.0, 0.5 * (least_part - (own.to - own.from)));
+        const double more = std::max(0.0, 0.5 * (min_part - (own.to - own.from)));
         Stretch next{own.from - more, own.to + more};
-        if (next.from < least_part) next.from = 0;
-        if (length - next.to < least_part) next.to = length;
-        if (!wide.empty() && next.from - wide.back().to < least_part) {
+        if (next.from < min_part) next.from = 0;
+        if (length - next.to < min_part) next.to = length;
+        if (!wide.empty() && next.from - wide.back().to < min_part) {
             wide.back().to = std::max(wide.back().to, next.to);
         } else {
             wide.push_back(next);
@@ -91,7 +91,7 @@ class PassCutter {
             ++next_;
             part.points.push_back(point);
         }
-        if (norm(here_.tip - part.points.back().tip) > least_length) part.points.push_back(here_);
+        if (norm(here_.tip - part.points.back().tip) > min_length) part.points.push_back(here_);
         at_ = end;
         here_.is_rounded = false;
         part.points.back().is_rounded = false;
@@ -109,13 +109,13 @@ template <class IsFree>
 ClippedPasses divided(const std::vector<Pass>& passes, double apart, const IsFree& is_free) {
     ClippedPasses parts;
     const auto add = [](std::vector<Pass>& to, Pass part) {
-        if (length_of(part) > least_length) to.push_back(std::move(part));
+        if (length_of(part) > min_length) to.push_back(std::move(part));
     };
     for (const Pass& pass : passes) {
         const double length = length_of(pass);
         const std::vector<Stretch> blocked = without_short_parts(blocked_stretches(pass, apart, is_free), length);
         if (blocked.empty()) {
-            add(pass.is_closed || length >= least_part ? parts.free : parts.blocked, pass);
+            add(pass.is_closed || length >= min_part ? parts.free : parts.blocked, pass);
             continue;
         }
         if (blocked[0].from <= 0 && blocked[0].to >= length) {
@@ -144,11 +144,11 @@ namespace {
 
 // For squares of cells of foam, a height of the tip from which on neither the holder nor the flute is blocked anywhere
 // in the square.
-HeightMap free_above(const CarvingSpace& space, double radius, double flute) {
-    const HeightMap foam = coarser(space.middle_foam, square);
-    HeightMap free = coarser(space.holder_limit, square);
-    // From the middle of a square to a place in it, to a middle of a cell, and to the middle of its square.
-    const HeightMap highest = disc_max(foam, radius + std::numbers::sqrt2 * foam.cell);
+HeightField free_above(const MillingSpace& space, double radius, double flute) {
+    const HeightField stock = coarser(space.centre_stock, square);
+    HeightField free = coarser(space.holder_clearance_height, square);
+    // From the middle of a square to a place in it, to a centre of a cell, and to the middle of its square.
+    const HeightField highest = dilate_by_disc(stock, radius + std::numbers::sqrt2 * stock.cell);
     for (std::size_t i = 0; i < free.height.size(); ++i) {
         free.height[i] = std::max(free.height[i], highest.height[i] - static_cast<float>(flute) + rounding);
     }
@@ -157,19 +157,19 @@ HeightMap free_above(const CarvingSpace& space, double radius, double flute) {
 
 }  // namespace
 
-ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
+ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space, const CuttingTool& tool) {
     const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
-    const HeightMap free = free_above(space, inner, tool.flute_length);
-    return divided(passes, 0.5 * space.foam.cell, [&](Vec3 p) {
-        if (least_height(free, p.x, p.y) <= p.z) return true;
-        return least_height(space.holder_limit, p.x, p.y) <= p.z &&
-               !is_disc_above(space.middle_foam, p.x, p.y, inner, p.z + tool.flute_length);
+    const HeightField free = free_above(space, inner, tool.flute_length);
+    return divided(passes, 0.5 * space.stock.cell, [&](Vec3 p) {
+        if (min_height(free, p.x, p.y) <= p.z) return true;
+        return min_height(space.holder_clearance_height, p.x, p.y) <= p.z &&
+               !is_dilation_above(space.centre_stock, p.x, p.y, inner, p.z + tool.flute_length);
     });
 }
 
-std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightMap& tip) {
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& tip) {
     return divided(passes, touching,
-                   [&](Vec3 p) { return static_cast<double>(disc_max_at(tip, p.x, p.y, touching)) >= p.z - touching; })
+                   [&](Vec3 p) { return static_cast<double>(dilation_at(tip, p.x, p.y, touching)) >= p.z - touching; })
         .free;
 }
 

@@ -7,13 +7,13 @@
 
 #include <vector>
 
-#include "cam/cell/carving_tool.h"
-#include "cam/toolpath/links.h"
+#include "cam/cell/cutting_tool.h"
 #include "cam/toolpath/pass.h"
+#include "cam/toolpath/toolpath_linker.h"
 
 namespace qchopper {
 
-// Together all that the passes carve: a blocked part begins and ends where a free one does
+// Together all that the passes mill: a blocked part begins and ends where a free one does
 // (tests/cam/toolpath/passes_and_links_test.cpp). Parts are at least 2 mm long, at the cost of free ones, and so is
 // what stays blocked: when the foam is gone it is free as a whole and worth a way there. Shorter passes stay as they
 // are.
@@ -22,12 +22,12 @@ struct ClippedPasses {
     std::vector<Pass> blocked;  // the rest, and open passes that are too short
 };
 
-ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);
+ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space, const CuttingTool& tool);
 
 double length_of(const std::vector<Pass>& passes);
 
-// The parts of passes along which a tool is about 1.5 mm at most from touching, where `tip` is the tip surface of the
+// The parts of passes along which a tool is about 1.5 mm at most from touching, where `tip` is the CL surface of the
 // tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
-std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightMap& tip);
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& tip);
 
 }  // namespace qchopper

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "base/text.h"
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "cam/toolpath/toolpath_settings.h"
 #include "segment/mesh/plane_frame.h"
@@ -19,36 +19,36 @@
 namespace qchopper {
 namespace {
 
-constexpr double foam_step = 0.5;  // mm, along the axis over the mouth
-constexpr double holder_step = 4;  // mm, between points of holder and spindle
+constexpr double stock_step = 0.5;  // mm, along the axis over the mouth
+constexpr double holder_step = 4;   // mm, between points of holder and spindle
 constexpr double peck_diameters = 2;
 constexpr double same_direction = 1e-6;  // between unit vectors
 
 class HolePlanner {
  public:
-    HolePlanner(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const InProcessStock& foam,
+    HolePlanner(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const InProcessStock& stock,
                 const DrillOptions& options)
         : setup_(setup),
           mesh_(mesh),
           tree_(mesh),
           cell_(cell),
           machine_(*cell.machine),
-          foam_(foam),
+          stock_(stock),
           options_(options) {}
 
     // The index of the drill. Fills in the reason, or the run.
     std::optional<std::size_t> plan(DrillHole& hole, PathRun& run) const {
         std::optional<std::size_t> drill;
         for (std::size_t i = 0; i < machine_.tools.size() && !drill; ++i) {
-            const CarvingTool& tool = machine_.tools[i];
+            const CuttingTool& tool = machine_.tools[i];
             if (is_drill(tool) && std::abs(tool.diameter - hole.diameter) <= options_.diameter) drill = i;
         }
         if (!drill) {
             hole.by_hand = "the cell has no drill of " + fixed(hole.diameter, 1) + " mm";
             return std::nullopt;
         }
-        const CarvingTool& tool = machine_.tools[*drill];
-        const double top = top_of_foam(hole);
+        const CuttingTool& tool = machine_.tools[*drill];
+        const double top = top_of_stock(hole);
         hole.by_hand = reason(hole, tool, top);
         if (!hole.by_hand.empty()) return std::nullopt;
         run = run_of(hole, tool, top);
@@ -56,13 +56,13 @@ class HolePlanner {
     }
 
  private:
-    static Vec3 at_height(const DrillHole& hole, double height) { return hole.mouth + height * hole.out; }
+    static Vec3 at_height(const DrillHole& hole, double height) { return hole.mouth + height * hole.tool_axis; }
 
     double height_of_retract(const DrillHole& hole) const {
-        return retract_height(setup_, hole.out, cell_.clearance) - dot(hole.mouth, hole.out);
+        return retract_height(setup_, hole.tool_axis, cell_.clearance) - dot(hole.mouth, hole.tool_axis);
     }
 
-    std::string reason(const DrillHole& hole, const CarvingTool& tool, double top) const {
+    std::string reason(const DrillHole& hole, const CuttingTool& tool, double top) const {
         const std::string name = "drill " + std::to_string(tool.number);
         if (point_height(tool) > hole.wall) {
             return "the point of " + name + " goes " + fixed(point_height(tool), 1) + " mm below the hole, where " +
@@ -74,7 +74,7 @@ class HolePlanner {
             return "the flute of " + name + " is " + fixed(tool.flute_length, 0) + " mm long, and " +
                    fixed(deep + top, 0) + " mm are needed with the foam over the cap";
         }
-        if (is_holder_in_foam(hole, tool, deep)) return "holder or spindle of " + name + " would come into the foam";
+        if (is_holder_in_stock(hole, tool, deep)) return "holder or spindle of " + name + " would come into the foam";
         return {};
     }
 
@@ -92,7 +92,7 @@ class HolePlanner {
     // Calls visit with points of a disc around the axis until it returns true; whether it did.
     template <class Visit>
     static bool any_on_disc(const DrillHole& hole, double height, double radius, double step, const Visit& visit) {
-        const PlaneFrame frame = frame_across(hole.out);
+        const PlaneFrame frame = frame_across(hole.tool_axis);
         const Vec3 middle = at_height(hole, height);
         if (visit(middle)) return true;
         const int rings = std::max(1, static_cast<int>(std::ceil(radius / step)));
@@ -108,33 +108,33 @@ class HolePlanner {
     }
 
     // Height above the mouth; 0: the cap is clear.
-    double top_of_foam(const DrillHole& hole) const {
+    double top_of_stock(const DrillHole& hole) const {
         double top = 0;
         const double highest = height_of_retract(hole);
-        const auto is_foam = [&](Vec3 p) { return foam_.may_be_foam(p); };
-        for (double height = foam_step; height < highest; height += foam_step) {
-            if (any_on_disc(hole, height, 0.5 * hole.diameter, 1, is_foam)) top = height;
+        const auto is_stock = [&](Vec3 p) { return stock_.may_be_stock(p); };
+        for (double height = stock_step; height < highest; height += stock_step) {
+            if (any_on_disc(hole, height, 0.5 * hole.diameter, 1, is_stock)) top = height;
         }
         return top;
     }
 
     // With the tip as deep as it goes; higher up the same room is needed and less.
-    bool is_holder_in_foam(const DrillHole& hole, const CarvingTool& tool, double deep) const {
+    bool is_holder_in_stock(const DrillHole& hole, const CuttingTool& tool, double deep) const {
         const ToolBody body = tool_body(tool, machine_.spindle);
         const double highest = height_of_retract(hole);
-        const auto is_foam = [&](Vec3 p) { return foam_.may_be_foam(p); };
+        const auto is_stock = [&](Vec3 p) { return stock_.may_be_stock(p); };
         double from = body.stick_out - deep - options_.clear;
         for (const HolderStep& step : body.steps) {
             const double to = &step == &body.steps.back() ? highest : std::min(highest, from + step.length);
             for (double height = from; height < to; height += holder_step) {
-                if (any_on_disc(hole, height, 0.5 * step.diameter + options_.clear, holder_step, is_foam)) return true;
+                if (any_on_disc(hole, height, 0.5 * step.diameter + options_.clear, holder_step, is_stock)) return true;
             }
             from += step.length;
         }
         return from < 0;
     }
 
-    PathRun run_of(const DrillHole& hole, const CarvingTool& tool, double top) const {
+    PathRun run_of(const DrillHole& hole, const CuttingTool& tool, double top) const {
         const double begin = top + options_.gap;
         const double deepest = -(hole.depth + point_height(tool));
         PathRun run;
@@ -157,45 +157,46 @@ class HolePlanner {
     TriangleTree tree_;
     const Cell& cell_;
     const CellMachine& machine_;
-    const InProcessStock& foam_;
+    const InProcessStock& stock_;
     const DrillOptions& options_;
 };
 
 // The index of a direction in those of the setup and then in those of the drilling, which it joins if it is new.
-std::size_t direction_index(const Setup& setup, Vec3 out, std::vector<DrillDirection>& drilling) {
-    const std::vector<SetupDirection>& own = setup.reach.directions;
+std::size_t orientation_index(const Setup& setup, Vec3 tool_axis, std::vector<DrillOrientation>& drilling) {
+    const std::vector<ToolOrientation>& own = setup.access.orientations;
     for (std::size_t d = 0; d < own.size(); ++d) {
-        if (norm(setup.tool_axis(d) - out) <= same_direction) return d;
+        if (norm(setup.tool_axis(d) - tool_axis) <= same_direction) return d;
     }
-    const auto found = std::find_if(drilling.begin(), drilling.end(),
-                                    [&](const DrillDirection& d) { return norm(d.out - out) <= same_direction; });
+    const auto found = std::find_if(drilling.begin(), drilling.end(), [&](const DrillOrientation& d) {
+        return norm(d.tool_axis - tool_axis) <= same_direction;
+    });
     const auto index = static_cast<std::size_t>(found - drilling.begin());
-    if (found == drilling.end()) drilling.push_back({out, 0});
+    if (found == drilling.end()) drilling.push_back({tool_axis, 0});
     return own.size() + index;
 }
 
 }  // namespace
 
 Drilling drill_holes(std::span<const DrillHole> holes, const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
-                     const InProcessStock& foam, const DrillOptions& options) {
+                     const InProcessStock& stock, const DrillOptions& options) {
     assert(cell.machine);
     Drilling drilling;
     drilling.holes.assign(holes.begin(), holes.end());
-    const HolePlanner planner(setup, mesh, cell, foam, options);
+    const HolePlanner planner(setup, mesh, cell, stock, options);
     for (DrillHole& hole : drilling.holes) {
         PathRun run;
         const auto tool = hole.by_hand.empty() ? planner.plan(hole, run) : std::nullopt;
         if (!tool) continue;
-        const std::size_t direction = direction_index(setup, hole.out, drilling.directions);
+        const std::size_t orientation = orientation_index(setup, hole.tool_axis, drilling.orientations);
         const auto place = std::find_if(
             drilling.operations.begin(), drilling.operations.end(),
-            [&](const Operation& o) { return std::pair(o.tool, o.direction) >= std::pair(*tool, direction); });
-        if (place != drilling.operations.end() && place->tool == *tool && place->direction == direction) {
+            [&](const Operation& o) { return std::pair(o.tool, o.orientation) >= std::pair(*tool, orientation); });
+        if (place != drilling.operations.end() && place->tool == *tool && place->orientation == orientation) {
             place->runs.push_back(std::move(run));
             continue;
         }
-        Operation operation = operation_of(*cell.machine, *tool, OperationKind::drilling, direction);
-        operation.retract = retract_height(setup, hole.out, cell.clearance);
+        Operation operation = operation_of(*cell.machine, *tool, OperationKind::drilling, orientation);
+        operation.retract = retract_height(setup, hole.tool_axis, cell.clearance);
         operation.runs.push_back(std::move(run));
         drilling.operations.insert(place, std::move(operation));
     }

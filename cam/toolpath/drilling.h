@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cam/cell/cell.h"
-#include "cam/setup/drill_direction.h"
+#include "cam/setup/drill_orientation.h"
 #include "cam/setup/setup.h"
 #include "cam/stock/in_process_stock.h"
 #include "cam/toolpath/toolpath.h"
@@ -22,9 +22,9 @@
 namespace qchopper {
 
 struct DrillHole {
-    std::size_t number = 1;  // as in the job
-    Vec3 mouth;              // of its axis, on the cap
-    Vec3 out{0, 0, 1};       // unit, along its axis out of the piece
+    std::size_t number = 1;   // as in the job
+    Vec3 mouth;               // of its axis, on the cap
+    Vec3 tool_axis{0, 0, 1};  // unit, along its axis out of the piece
     double diameter = 0;
     double depth = 0;     // of the full diameter
     double wall = 0;      // least foam that stays below it
@@ -33,9 +33,9 @@ struct DrillHole {
 };
 
 struct Drilling {
-    std::vector<DrillHole> holes;            // as they came, with the reasons
-    std::vector<DrillDirection> directions;  // those that the setup lacks
-    std::vector<Operation> operations;       // a run per hole; by tool in the order of the cell, then by direction
+    std::vector<DrillHole> holes;                // as they came, with the reasons
+    std::vector<DrillOrientation> orientations;  // those that the setup lacks
+    std::vector<Operation> operations;           // a run per hole; by tool in the order of the cell, then by direction
 };
 
 struct DrillOptions {
@@ -44,10 +44,10 @@ struct DrillOptions {
     double diameter = 0.05;  // by which hole and drill may differ
 };
 
-// What can be drilled with the tools, wherever the arm may reach (cam/program/hold_drilling.h). A hole that has a
+// What can be drilled with the tools, wherever the arm may reach (cam/program/reachable_holes.h). A hole that has a
 // reason already is left alone. `foam` is what stands after the toolpath, `mesh` the piece in setup coordinates.
 // Precondition: the cell has a machine. O(holes * block / 4 mm^3 of the holder).
 Drilling drill_holes(std::span<const DrillHole> holes, const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
-                     const InProcessStock& foam, const DrillOptions& options = {});
+                     const InProcessStock& stock, const DrillOptions& options = {});
 
 }  // namespace qchopper

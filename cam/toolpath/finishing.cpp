@@ -1,12 +1,12 @@
-// Which cells the tip has to visit follows from where the tool touches: a ball over a tip surface touches its radius
-// away from its middle, against the normal of the tip surface. At a crease, where it touches on both sides, the slopes
+// Which cells the tip has to visit follows from where the tool touches: a ball over a CL surface touches its radius
+// away from its middle, against the normal of the CL surface. At a crease, where it touches on both sides, the slopes
 // to both sides are taken. O(cells).
 //
 // The floor is no surface of the piece. The region to be finished holds surface of the piece alone, and the floor is
 // given beside it (FinishingOptions::floor): over it levels go up to one radius above it, around whatever the tool
 // touches there. The lowest one passes the foot of each wall with the centre of the ball at z = 0 and so removes all
 // foam above z = 0 within the tool's diameter of the wall; no rows go over the floor. With the floor in the region,
-// every wall over it was carved from top to foot, also walls that stand only because the piece hides what is under
+// every wall over it was milled from top to foot, also walls that stand only because the piece hides what is under
 // them: 40 % of the passes and two thirds of the lines of the head of Igea at 1 m. Cost: such walls keep the allowance
 // of roughing, which took up to 0.02 percentage points of what is within tolerance, and where the floor is nearer to
 // the base than a radius the cleared strip is narrower.
@@ -28,14 +28,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "cam/toolpath/level_passes.h"
 #include "cam/toolpath/raster_passes.h"
 #include "cam/toolpath/scallop.h"
+#include "cam/toolpath/waterline_passes.h"
 
 namespace qchopper {
 namespace {
 
-void check(const CarvingTool& tool, const FinishingOptions& options) {
+void check(const CuttingTool& tool, const FinishingOptions& options) {
     const auto refuse = [](const std::string& what) {
         throw InputError(InputFault::use, "finishing: " + what, "give another value");
     };
@@ -49,12 +49,12 @@ void check(const CarvingTool& tool, const FinishingOptions& options) {
     if (!(options.scallop <= 0.5 * tool.diameter)) refuse("scallop is above the radius of the tool");
 }
 
-// Slopes of the tip surface to both sides of a cell.
+// Slopes of the CL surface to both sides of a cell.
 struct SideSlopes {
     std::array<double, 2> x{};
     std::array<double, 2> y{};
 
-    SideSlopes(const HeightMap& tip, std::size_t column, std::size_t row) {
+    SideSlopes(const HeightField& tip, std::size_t column, std::size_t row) {
         const auto z = [&](std::size_t c, std::size_t r) { return static_cast<double>(tip.at(c, r)); };
         const std::size_t west = column > 0 ? column - 1 : column;
         const std::size_t east = std::min(column + 1, tip.columns - 1);
@@ -69,7 +69,8 @@ struct SideSlopes {
 };
 
 // Whether the tool touches what belongs to the region.
-bool touches(const HeightMap& tip, const FinishingRegion& region, double radius, std::size_t column, std::size_t row) {
+bool touches(const HeightField& tip, const FinishingRegion& region, double radius, std::size_t column,
+             std::size_t row) {
     const SideSlopes slopes(tip, column, row);
     const auto cell_at = [&](double x, std::size_t count) {
         return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
@@ -94,8 +95,8 @@ struct FinishingMasks {
     CellMask steep;
 };
 
-// The cells at which the tool touches the region, by how steep the tip surface is there.
-FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, double radius, double least_slope) {
+// The cells at which the tool touches the region, by how steep the CL surface is there.
+FinishingMasks masks_of(const HeightField& tip, const FinishingRegion& region, double radius, double min_slope) {
     FinishingMasks masks;
     masks.flat.assign(tip.height.size(), 0);
     masks.steep.assign(tip.height.size(), 0);
@@ -103,7 +104,7 @@ FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, dou
         for (std::size_t column = 0; column < tip.columns; ++column) {
             if (!touches(tip, region, radius, column, row)) continue;
             const SideSlopes slopes(tip, column, row);
-            const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > least_slope;
+            const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > min_slope;
             CellMask& mask = is_steep ? masks.steep : masks.flat;
             mask[row * tip.columns + column] = 1;
         }
@@ -112,23 +113,23 @@ FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, dou
 }
 
 // The cells of the floor over which the tip is less than its radius above it, and those beside them.
-LevelFloor foot_of_walls(const HeightMap& tip, const FinishingRegion& floor, double radius) {
+WaterlineFloor foot_of_walls(const HeightField& tip, const FinishingRegion& floor, double radius) {
     assert(floor.size() == tip.height.size());
-    LevelFloor foot;
+    WaterlineFloor foot;
     foot.top = static_cast<double>(*std::min_element(floor.begin(), floor.end())) + radius;
     foot.cells.assign(floor.size(), 0);
     for (std::size_t i = 0; i < floor.size(); ++i) {
         if (floor[i] < not_finished && static_cast<double>(tip.height[i]) < foot.top) foot.cells[i] = 1;
     }
-    foot.cells = grown(foot.cells, tip.columns, tip.rows, 1);
+    foot.cells = dilated(foot.cells, tip.columns, tip.rows, 1);
     return foot;
 }
 
-// The cells that are at most so far from one of the mask, measured along the tip surface from cell to cell: sweeps in
+// The cells that are at most so far from one of the mask, measured along the CL surface from cell to cell: sweeps in
 // both orders, until one changes nothing.
 class SurfaceGrowth {
  public:
-    SurfaceGrowth(const CellMask& mask, const HeightMap& tip, double by)
+    SurfaceGrowth(const CellMask& mask, const HeightField& tip, double by)
         : tip_(tip), by_(static_cast<float>(by)), distance_(mask.size(), std::numeric_limits<float>::infinity()) {
         for (std::size_t i = 0; i < mask.size(); ++i) {
             if (mask[i] != 0) distance_[i] = 0;
@@ -167,21 +168,21 @@ class SurfaceGrowth {
         return distance_[cell] + std::hypot(static_cast<float>(tip_.cell), tip_.height[to] - tip_.height[cell]);
     }
 
-    const HeightMap& tip_;
+    const HeightField& tip_;
     float by_;
     std::vector<float> distance_;
 };
 
 // Cells that hang together, and how far apart their heights are.
-class SteepPatches {
+class SteepRegions {
  public:
-    SteepPatches(const HeightMap& tip, FinishingMasks& masks) : tip_(tip), masks_(masks), rest_(masks.steep) {}
+    SteepRegions(const HeightField& tip, FinishingMasks& masks) : tip_(tip), masks_(masks), rest_(masks.steep) {}
 
     // Patches lower than a height belong to the flat cells: rows go over them.
     void give_low_ones_to_flat(double height) {
         for (std::size_t i = 0; i < rest_.size(); ++i) {
             if (rest_[i] == 0 || collect(i) >= height) continue;
-            for (const std::size_t cell : patch_) {
+            for (const std::size_t cell : region_) {
                 masks_.steep[cell] = 0;
                 masks_.flat[cell] = 1;
             }
@@ -190,12 +191,12 @@ class SteepPatches {
 
  private:
     double collect(std::size_t first) {
-        patch_.assign(1, first);
+        region_.assign(1, first);
         rest_[first] = 0;
         float low = tip_.height[first];
         float high = low;
-        for (std::size_t k = 0; k < patch_.size(); ++k) {
-            const std::size_t cell = patch_[k];
+        for (std::size_t k = 0; k < region_.size(); ++k) {
+            const std::size_t cell = region_[k];
             low = std::min(low, tip_.height[cell]);
             high = std::max(high, tip_.height[cell]);
             const std::size_t column = cell % tip_.columns;
@@ -209,25 +210,25 @@ class SteepPatches {
     void visit(std::size_t cell) {
         if (rest_[cell] == 0) return;
         rest_[cell] = 0;
-        patch_.push_back(cell);
+        region_.push_back(cell);
     }
 
-    const HeightMap& tip_;
+    const HeightField& tip_;
     FinishingMasks& masks_;
     CellMask rest_;  // cells that are of no patch yet
-    std::vector<std::size_t> patch_;
+    std::vector<std::size_t> region_;
 };
 
 }  // namespace
 
-double finishing_step(const CarvingTool& tool, const FinishingOptions& options) {
+double finishing_stepover(const CuttingTool& tool, const FinishingOptions& options) {
     check(tool, options);
     return chord_for_scallop(0.5 * tool.diameter, options.scallop);
 }
 
-std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const FinishingRegion& region,
+std::vector<Pass> finishing_passes(const HeightField& tip, const CuttingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context) {
-    const double step = finishing_step(tool, options);
+    const double stepover = finishing_stepover(tool, options);
     assert(region.size() == tip.height.size());
     const double radius = 0.5 * tool.diameter;
     const auto report = [&](std::size_t done) {
@@ -235,25 +236,25 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
         context.progress("steps of finishing", done, 4);
     };
     report(0);
-    const double least_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
-    FinishingMasks masks = masks_of(tip, region, radius, least_slope);
+    const double min_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
+    FinishingMasks masks = masks_of(tip, region, radius, min_slope);
     report(1);
-    SteepPatches(tip, masks).give_low_ones_to_flat(0.5 * step);
-    const auto by = static_cast<std::size_t>(std::ceil(0.5 * step / tip.cell));
-    const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
+    SteepRegions(tip, masks).give_low_ones_to_flat(0.5 * stepover);
+    const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / tip.cell));
+    const FinishingRegion wide_region = dilated(region, tip.columns, tip.rows, by);
     report(2);
-    const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
-    // With the cells at the foot of a wall: squares of level_lines() may begin at them.
-    CellMask steep = SurfaceGrowth(grown(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * step).mask();
-    LevelFloor foot;
+    const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * stepover, options.rounding};
+    // With the cells at the foot of a wall: squares of waterlines() may begin at them.
+    CellMask steep = SurfaceGrowth(dilated(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * stepover).mask();
+    WaterlineFloor foot;
     if (options.floor != nullptr) {
         foot = foot_of_walls(tip, *options.floor, radius);
         std::transform(steep.begin(), steep.end(), foot.cells.begin(), steep.begin(), std::bit_or<>());
     }
-    std::vector<Pass> passes = level_passes(tip, {std::move(masks.steep), std::move(steep)},
-                                            {wide_region, foot, options.tool}, least_slope, common, context);
+    std::vector<Pass> passes = waterline_passes(tip, {std::move(masks.steep), std::move(steep)},
+                                                {wide_region, foot, options.tool}, min_slope, common, context);
     report(3);
-    const CellMask flat = SurfaceGrowth(masks.flat, tip, step).mask();
+    const CellMask flat = SurfaceGrowth(masks.flat, tip, stepover).mask();
     std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
     report(4);

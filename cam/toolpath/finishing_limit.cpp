@@ -1,5 +1,6 @@
-// The highest foam under discs (disc_max.h), the holder's limit as for passes (links.h). A cell of a tip surface takes
-// the highest limit between the middles of its neighbours: cells of limits are not narrower, so that nine places tell.
+// The highest foam under discs (disc_dilation.h), the holder's limit as for passes (toolpath_linker.h). A cell of a CL
+// surface takes the highest limit between the middles of its neighbours: cells of limits are not narrower, so that nine
+// places tell.
 
 #include "cam/toolpath/finishing_limit.h"
 
@@ -10,37 +11,37 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "segment/raster/disc_max.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double least_clearance = 0.15;  // of holder and spindle
+constexpr double min_clearance = 0.15;  // of holder and spindle
 // With several directions more of it, because foam stands up to 0.71 cells beside where another direction says so
-// (holder_limit_over allows for the cell of this one).
+// (holder_clearance_over allows for the cell of this one).
 constexpr double clearance_cells = 0.72;
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 
 }  // namespace
 
-HolderGap finishing_gap(const Setup& setup, double foam_cell) {
-    const bool is_alone = setup.reach.directions.size() == 1;
-    return {least_clearance + (is_alone ? 0 : clearance_cells * foam_cell), 1};
+HolderGap finishing_gap(const Setup& setup, double stock_cell) {
+    const bool is_alone = setup.access.orientations.size() == 1;
+    return {min_clearance + (is_alone ? 0 : clearance_cells * stock_cell), 1};
 }
 
-HeightMap limit_over_finished(HeightMap piece, double foam_left, const ToolBody& body, const HolderGap& gap) {
+HeightField limit_over_finished(HeightField piece, double foam_left, const ToolBody& body, const HolderGap& gap) {
     // The highest point of a cell may lie so much nearer than its middle, at which foam is known.
     const double nearer = half_diagonal * piece.cell;
     for (float& z : piece.height) z += static_cast<float>(foam_left + nearer);
-    return holder_limit_over(piece, body, {gap.clearance - nearer, gap.wide_cells});
+    return holder_clearance_over(piece, body, {gap.clearance - nearer, gap.wide_cells});
 }
 
-HeightMap limit_over_foam(const HeightMap& middle_foam, const CarvingTool& tool, const ToolBody& body,
-                          const HolderGap& gap) {
-    HeightMap limit = holder_limit_over(middle_foam, body, gap);
+HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool& tool, const ToolBody& body,
+                             const HolderGap& gap) {
+    HeightField limit = holder_clearance_over(centre_stock, body, gap);
     // The tip may lie anywhere in its cell.
-    const double under = std::max(0.0, 0.5 * tool.diameter - flute_rim) + half_diagonal * middle_foam.cell;
-    const HeightMap highest = disc_max(middle_foam, under);
+    const double under = std::max(0.0, 0.5 * tool.diameter - flute_rim) + half_diagonal * centre_stock.cell;
+    const HeightField highest = dilate_by_disc(centre_stock, under);
     const auto flute = static_cast<float>(tool.flute_length);
     for (std::size_t i = 0; i < limit.height.size(); ++i) {
         limit.height[i] = std::max(limit.height[i], highest.height[i] - flute);
@@ -48,7 +49,7 @@ HeightMap limit_over_foam(const HeightMap& middle_foam, const CarvingTool& tool,
     return limit;
 }
 
-void raise_to_limit(HeightMap& tip, const HeightMap& limit) {
+void raise_to_limit(HeightField& tip, const HeightField& limit) {
     assert(limit.cell >= tip.cell);
     constexpr std::array<double, 3> places{-0.5, 0.5, 1.5};  // from the middle of one neighbour to that of the other
     parallel_for(0, tip.rows, [&](std::size_t row) {
@@ -56,8 +57,8 @@ void raise_to_limit(HeightMap& tip, const HeightMap& limit) {
             double least = tip.at(column, row);
             for (const double down : places) {
                 for (const double along : places) {
-                    least = std::max(least, least_height(limit, tip.cell * (static_cast<double>(column) + along),
-                                                         tip.cell * (static_cast<double>(row) + down)));
+                    least = std::max(least, min_height(limit, tip.cell * (static_cast<double>(column) + along),
+                                                       tip.cell * (static_cast<double>(row) + down)));
                 }
             }
             tip.height[row * tip.columns + column] = static_cast<float>(least);

@@ -11,23 +11,23 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/stock/tip_view.h"
+#include "cam/stock/cl_surface_view.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::uint8_t all = 255;       // more foam than is examined, or not seen at all
-constexpr std::uint8_t most_twice = 4;  // foam is examined up to near * 2^(most_twice - 1)
-constexpr double overhanging = -0.01;   // sine of half a degree: a vertical wall is not one by rounding
+constexpr std::uint8_t all = 255;      // more foam than is examined, or not seen at all
+constexpr std::uint8_t max_twice = 4;  // foam is examined up to near * 2^(max_twice - 1)
+constexpr double overhanging = -0.01;  // sine of half a degree: a vertical wall is not one by rounding
 // Sine of 12 degrees. Under an edge a tool comes within `near` of overhanging surface: of what faces farther down in a
 // strip narrower than three millimetres.
 constexpr double lowest_facing = -0.2;
-constexpr std::uint8_t worst_under_edges = 1;  // k of overhanging surface; with more, much is carved to no avail
+constexpr std::uint8_t worst_under_edges = 1;  // k of overhanging surface; with more, much is milled to no avail
 constexpr std::size_t triangles_at_once = 1024;
 
 // The least of the `width` values from each one on, in place; the last ones have fewer.
-void least_ahead(float* first, std::size_t count, std::size_t width) {
+void min_ahead(float* first, std::size_t count, std::size_t width) {
     std::size_t done = 1;
     while (done < width) {
         const std::size_t by = std::min(done, width - done);
@@ -40,7 +40,7 @@ void least_ahead(float* first, std::size_t count, std::size_t width) {
 void grow_line(float* first, std::size_t count, std::size_t stride, std::size_t by, std::vector<float>& line) {
     line.assign(count + by, not_finished);
     for (std::size_t i = 0; i < count; ++i) line[i + by] = first[i * stride];
-    least_ahead(line.data(), line.size(), 2 * by + 1);
+    min_ahead(line.data(), line.size(), 2 * by + 1);
     for (std::size_t i = 0; i < count; ++i) first[i * stride] = line[i];
 }
 
@@ -52,7 +52,7 @@ void lower_cell(float& cell, float to) {
 }
 
 // The cell under a point of the map; nothing beside the map.
-std::optional<std::size_t> cell_under(const HeightMap& map, Vec3 p) {
+std::optional<std::size_t> cell_under(const HeightField& map, Vec3 p) {
     const double column = std::floor(p.x / map.cell);
     const double row = std::floor(p.y / map.cell);
     if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
@@ -62,9 +62,9 @@ std::optional<std::size_t> cell_under(const HeightMap& map, Vec3 p) {
 }
 
 // k for at most near * 2^k of foam over a point of the map.
-std::uint8_t foam_class(const HeightMap& remaining, Vec3 at, Vec3 normal, double near) {
+std::uint8_t foam_class(const HeightField& remaining, Vec3 at, Vec3 normal, double near) {
     double far = near;
-    for (std::uint8_t k = 0; k < most_twice; ++k, far *= 2) {
+    for (std::uint8_t k = 0; k < max_twice; ++k, far *= 2) {
         const Vec3 p = at + far * normal;
         const auto cell = cell_under(remaining, p);
         if (!cell || static_cast<double>(remaining.height[*cell]) <= p.z) return k;
@@ -74,13 +74,13 @@ std::uint8_t foam_class(const HeightMap& remaining, Vec3 at, Vec3 normal, double
 
 std::uint8_t class_of(double foam, double near) {
     std::uint8_t k = 0;
-    for (double far = near; far < foam && k < most_twice; far *= 2) ++k;
+    for (double far = near; far < foam && k < max_twice; far *= 2) ++k;
     return k;
 }
 
 }  // namespace
 
-FinishingRegion grown(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by) {
+FinishingRegion dilated(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by) {
     FinishingRegion result = region;
     if (by == 0) return result;
     parallel_ranges(0, rows, 16, [&](std::size_t first, std::size_t end) {
@@ -94,7 +94,7 @@ FinishingRegion grown(const FinishingRegion& region, std::size_t columns, std::s
     return result;
 }
 
-SurfaceLeft::SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing)
+RestMaterial::RestMaterial(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing)
     : mesh_(&mesh), spacing_(spacing), first_point_(mesh.triangles.size() + 1, 0) {
     assert(is_consistent(mesh) && spacing > 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -118,7 +118,7 @@ SurfaceLeft::SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> b
 }
 
 template <class Visit>
-void SurfaceLeft::for_each_point(std::size_t triangle, const Visit& visit) const {
+void RestMaterial::for_each_point(std::size_t triangle, const Visit& visit) const {
     const std::size_t points = first_point_[triangle + 1] - first_point_[triangle];
     const auto n = static_cast<std::size_t>(std::lround(0.5 * (std::sqrt(8.0 * static_cast<double>(points) + 1) - 1)));
     const auto& corner = mesh_->triangles[triangle];
@@ -133,19 +133,19 @@ void SurfaceLeft::for_each_point(std::size_t triangle, const Visit& visit) const
     }
 }
 
-FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, double overlap, double worth) {
+FinishingRegion RestMaterial::take(const HeightField& remaining, double near, double overlap, double worth) {
     assert(near > 0 && overlap >= 0);
     FinishingRegion region(remaining.height.size(), not_finished);
     ++takes_;
-    const std::uint8_t least_before = worth > 0 ? class_of(worth, near) : 0;
+    const std::uint8_t min_before = worth > 0 ? class_of(worth, near) : 0;
     parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
-            const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
+            const Vec3 normal = normalized(rotate(remaining.piece_in_field, area_vector(*mesh_, t)));
             if (!(normal.z > lowest_facing)) continue;
-            const std::uint8_t worst = normal.z > overhanging ? most_twice : worst_under_edges;
+            const std::uint8_t worst = normal.z > overhanging ? max_twice : worst_under_edges;
             for_each_point(t, [&](std::size_t index, Vec3 p) {
-                if (left_[index] <= least_before && (left_[index] == 0 || worth > 0)) return;
-                const Vec3 at = apply(remaining.piece_in_map, p);
+                if (left_[index] <= min_before && (left_[index] == 0 || worth > 0)) return;
+                const Vec3 at = apply(remaining.piece_in_field, p);
                 const std::uint8_t k = foam_class(remaining, at, normal, near);
                 if (k >= left_[index] || k > worst) return;
                 before_[index] = left_[index];
@@ -157,19 +157,19 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
         }
     });
     const double beside = std::max(overlap, spacing_);
-    return grown(region, remaining.columns, remaining.rows,
-                 static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
+    return dilated(region, remaining.columns, remaining.rows,
+                   static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
 }
 
-bool SurfaceLeft::give_back(std::size_t take, const HeightMap& remaining, double near) {
+bool RestMaterial::give_back(std::size_t take, const HeightField& remaining, double near) {
     assert(take > 0 && take <= takes_ && near > 0);
     std::atomic<bool> is_any = false;
     parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
-            const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
+            const Vec3 normal = normalized(rotate(remaining.piece_in_field, area_vector(*mesh_, t)));
             for_each_point(t, [&](std::size_t index, Vec3 p) {
                 if (taken_by_[index] != take) return;
-                const Vec3 at = apply(remaining.piece_in_map, p);
+                const Vec3 at = apply(remaining.piece_in_field, p);
                 const std::uint8_t k = foam_class(remaining, at, normal, near);
                 if (k <= left_[index]) return;
                 left_[index] = std::min(k, before_[index]);
@@ -181,7 +181,7 @@ bool SurfaceLeft::give_back(std::size_t take, const HeightMap& remaining, double
     return is_any;
 }
 
-double SurfaceLeft::share_within(std::size_t k) const {
+double RestMaterial::share_within(std::size_t k) const {
     double within = 0;
     double sum = 0;
     for (std::size_t t = 0; t < mesh_->triangles.size(); ++t) {
@@ -196,14 +196,14 @@ double SurfaceLeft::share_within(std::size_t k) const {
     return sum > 0 ? within / sum : 1;
 }
 
-void add_floor_band(FinishingRegion& region, const HeightMap& target, double width) {
+void add_floor_band(FinishingRegion& region, const HeightField& target, double width) {
     assert(region.size() == target.height.size());
     if (target.height.empty()) return;
     const float floor = *std::min_element(target.height.begin(), target.height.end());
     CellMask piece(region.size(), 0);
     for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = target.height[i] > floor + 1e-3F ? 1 : 0;
     const auto by = static_cast<std::size_t>(std::ceil(width / target.cell));
-    const CellMask band = grown(piece, target.columns, target.rows, by);
+    const CellMask band = dilated(piece, target.columns, target.rows, by);
     for (std::size_t i = 0; i < piece.size(); ++i) {
         if (band[i] != 0 && piece[i] == 0) region[i] = std::min(region[i], target.height[i]);
     }

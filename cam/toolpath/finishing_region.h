@@ -1,7 +1,7 @@
 // What one direction finishes of a piece: the surface that it reaches better than the directions before.
 //
 // mm. Points on the triangles are compared with the surface that remains where a tool has been everywhere it can go
-// (remaining_surface of tip_surface.h): how far along the normal of the point is what is free.
+// (remaining_surface of cl_surface.h): how far along the normal of the point is what is free.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "segment/mesh/triangle_mesh.h"
-#include "segment/raster/height_map.h"
+#include "segment/raster/height_field.h"
 
 namespace qchopper {
 
@@ -21,14 +21,14 @@ using FinishingRegion = std::vector<float>;
 constexpr float not_finished = std::numeric_limits<float>::infinity();
 
 // Every cell as low as the lowest at most so many rows and columns from it.
-FinishingRegion grown(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by);
+FinishingRegion dilated(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by);
 
 // What the directions and tools so far have left over the surface of a piece.
-class SurfaceLeft {
+class RestMaterial {
  public:
     // The base, a cap of that number, is left out, and so are triangles that are ignored. Points are at most `spacing`
     // apart on a triangle. The mesh must outlive it. Preconditions: the mesh is consistent, spacing > 0.
-    SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing = 1);
+    RestMaterial(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing = 1);
 
     // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
     // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
@@ -36,7 +36,7 @@ class SurfaceLeft {
     // points that have more foam than that so far. Surface that faces down by up to 12 degrees counts where at most 2 *
     // near is left over it: the strip under an edge that the tool goes along. Afterwards the points have what is left
     // now. The result does not depend on the number of threads. O(points + cells).
-    FinishingRegion take(const HeightMap& remaining, double near, double overlap, double worth = 0);
+    FinishingRegion take(const HeightField& remaining, double near, double overlap, double worth = 0);
 
     // The number of calls of take().
     std::size_t takes() const { return takes_; }
@@ -44,7 +44,7 @@ class SurfaceLeft {
     // Corrects what the take of that number, the first is 1, has supposed to remain: points that it had, over which
     // more is left, are left to other takes, as far as these find less foam than it or what was before it. Whether
     // there are any. O(points + cells).
-    bool give_back(std::size_t take, const HeightMap& remaining, double near);
+    bool give_back(std::size_t take, const HeightField& remaining, double near);
 
     // Share of the area over which at most `near` times 2^k is left, of the last `near`.
     double share_within(std::size_t k) const;
@@ -64,6 +64,6 @@ class SurfaceLeft {
 
 // Adds the floor within a distance of the projection of the piece: of a map along the base's up, in which the floor is
 // what is lowest.
-void add_floor_band(FinishingRegion& region, const HeightMap& target, double width);
+void add_floor_band(FinishingRegion& region, const HeightField& target, double width);
 
 }  // namespace qchopper

@@ -2,8 +2,8 @@
 //
 // Passes that foam blocks are taken up again. Finishing passes are divided into free and blocked parts
 // (clipped_passes.h). After the free ones the limit of holder and spindle is computed again over the foam that stands
-// then, until nothing more becomes free. What stays blocked waits, with its tip surface, for the other directions and
-// is tried again in rounds until a round carves nothing. The same holds for passes that would cut foam above the flute.
+// then, until nothing more becomes free. What stays blocked waits, with its CL surface, for the other directions and
+// is tried again in rounds until a round mills nothing. The same holds for passes that would cut foam above the flute.
 // Clipping once, at the start, lost what later became free: of a piece twice as high as its tools are long 16 % of the
 // reachable surface kept too much foam. Passes are not sorted strictly from above, which would cost a link for each.
 //
@@ -15,9 +15,9 @@
 //
 // Foam is known in cells of a sixth of the finest tool's radius, 0.5 mm at least: a small tool lowers larger cells
 // hardly at all. Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle
-// is known too (FoamCells), because a skin that roughing leaves on a wall is as thick as a cell.
+// is known too (StockCells), because a skin that roughing leaves on a wall is as thick as a cell.
 //
-// Cost: that of the passes; per operation with blocked passes a tip surface is kept, 4 bytes a cell of finishing, and
+// Cost: that of the passes; per operation with blocked passes a CL surface is kept, 4 bytes a cell of finishing, and
 // the foam is held twice. Tests: tests/cam/toolpath/make_toolpath_test.cpp, PassesThatFoamBlocksAreTakenUpAgain...,
 // SurfaceThatStaysBlockedIsLeftToAnotherDirection, FinishesAWallDownToWhereTheHolderMeetsItsTop.
 
@@ -32,25 +32,25 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
+#include "cam/stock/cl_surface.h"
 #include "cam/stock/in_process_stock.h"
 #include "cam/stock/roughing_limit.h"
-#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_region.h"
-#include "cam/toolpath/links.h"
 #include "cam/toolpath/roughing.h"
+#include "cam/toolpath/toolpath_linker.h"
 #include "cam/toolpath/unused_tools.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
-constexpr double least_foam_cell = 0.5;
+constexpr double min_stock_cell = 0.5;
 constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
-constexpr int most_handed_over = 2;    // times, of each kind of finishing
+constexpr int max_given_back = 2;      // times, of each kind of finishing
 constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
 constexpr double worth_another = 200;  // mm of such passes that are worth another direction
 constexpr double border_cells = 6;
@@ -61,7 +61,7 @@ constexpr double upright = 0.9999;          // cosine of the tilt of a direction
 constexpr double skin_beyond = 4.2;         // mm beyond the allowance: a narrower rim of foam is left to finishing
 
 // Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
-constexpr TipOptions finishing_tip_options{0, 0.075};
+constexpr DilationOptions finishing_dilation_options{0, 0.075};
 
 class ToolpathMaker {
  public:
@@ -75,19 +75,19 @@ class ToolpathMaker {
           context_(context),
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
-          middle_stock_(setup, FoamCells::middles),
+          centre_stock_(setup, StockCells::centres),
           left_(mesh, setup.base, surface_spacing),
-          coarse_targets_(setup.reach.directions.size()) {
+          coarse_pieces_(setup.access.orientations.size()) {
         check_settings(settings, machine_, tools_);
         const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
-        foam_cell_ = std::max(least_foam_cell, finest / cells_per_radius);
+        stock_cell_ = std::max(min_stock_cell, finest / cells_per_radius);
         double widest = 0;
-        for (const CarvingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
-        border_ = widest + border_cells * foam_cell_;
+        for (const CuttingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
+        border_ = widest + border_cells * stock_cell_;
     }
 
     Toolpath make() {
-        const std::size_t directions = setup_.reach.directions.size();
+        const std::size_t directions = setup_.access.orientations.size();
         total_ = (tools_.fine ? 5 : 3) * directions;
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
@@ -103,7 +103,7 @@ class ToolpathMaker {
             throw InputError(InputFault::use, "the toolpath is empty: no tool has anything to cut",
                              "check the block, the tools and the base of the piece");
         }
-        toolpath_.unused = unused_tools(machine_, tools_, setup_.reach.directions.size(), toolpath_, is_empty_);
+        toolpath_.unused = unused_tools(machine_, tools_, setup_.access.orientations.size(), toolpath_, is_empty_);
         toolpath_.cell = settings_.cell;
         toolpath_.path_tolerance = settings_.path_tolerance;
         return std::move(toolpath_);
@@ -116,65 +116,65 @@ class ToolpathMaker {
         context_.progress("operations of the toolpath", done_++, total_);
     }
 
-    // The height below which no point of a ball comes. It goes below the base, so that it carves the sides down to it,
+    // The height below which no point of a ball comes. It goes below the base, so that it mills the sides down to it,
     // but not into the table: from above by its radius, and tilted, where it comes under what leans over, as far as its
     // rim, were it a cylinder, stays clear of the table, because poses are judged with that.
-    double finishing_floor(Vec3 out, double radius) const {
+    double finishing_floor(Vec3 tool_axis, double radius) const {
         const double lowest = clear_of_table - setup_.spoil;
-        if (out.z > upright) return std::max(-radius, lowest);
-        const double rim = radius * (std::sqrt(std::max(0.0, 1 - out.z * out.z)) + out.z - 1);
+        if (tool_axis.z > upright) return std::max(-radius, lowest);
+        const double rim = radius * (std::sqrt(std::max(0.0, 1 - tool_axis.z * tool_axis.z)) + tool_axis.z - 1);
         return std::max(lowest, rim_clear_of_table - setup_.spoil + rim);
     }
 
-    HeightMap target(std::size_t direction, double cell, double floor_z) const {
-        return target_map(setup_, mesh_, direction, {cell, floor_z, border_});
+    HeightField target(std::size_t orientation, double cell, double floor_z) const {
+        return piece_height_field(setup_, mesh_, orientation, {cell, floor_z, border_});
     }
 
     // In the cells of foam, over the base plane.
-    const HeightMap& coarse_target(std::size_t direction) {
-        HeightMap& map = coarse_targets_[direction];
-        if (map.height.empty()) map = target(direction, foam_cell_, 0);
+    const HeightField& coarse_piece(std::size_t orientation) {
+        HeightField& map = coarse_pieces_[orientation];
+        if (map.height.empty()) map = target(orientation, stock_cell_, 0);
         return map;
     }
 
     ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
 
     // Fills what is the same for all kinds of operation.
-    CarvingSpace space_of(const HeightMap& frame, const Operation& operation) const {
-        CarvingSpace space;
-        space.foam = stock_.highest(operation.direction, frame);
-        space.middle_foam = middle_stock_.highest(operation.direction, frame);
+    MillingSpace space_of(const HeightField& frame, const Operation& operation) const {
+        MillingSpace space;
+        space.stock = stock_.highest(operation.orientation, frame);
+        space.centre_stock = centre_stock_.highest(operation.orientation, frame);
         space.removed = frame;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
-        space.middle_removed = space.removed;
-        space.retract = operation.retract + setup_to_map(setup_, frame, {}).z;
+        space.centre_removed = space.removed;
+        space.retract = operation.retract + setup_to_field(setup_, frame, {}).z;
         return space;
     }
 
-    void rough_along(std::size_t direction, std::size_t tool_index) {
+    void rough_along(std::size_t orientation, std::size_t tool_index) {
         report();
-        const CarvingTool& tool = machine_.tools[tool_index];
-        const bool is_first = direction == 0 && tool_index == tools_.roughing;
+        const CuttingTool& tool = machine_.tools[tool_index];
+        const bool is_first = orientation == 0 && tool_index == tools_.roughing;
         const bool is_large = tool_index == tools_.roughing;
-        Operation operation = new_operation(direction, tool_index, OperationKind::roughing);
-        operation.step = settings_.step_share * tool.diameter;
-        operation.step_down = step_down_of(tool, settings_);
+        Operation operation = new_operation(orientation, tool_index, OperationKind::roughing);
+        operation.stepover = settings_.stepover_share * tool.diameter;
+        operation.stepdown = stepdown_of(tool, settings_);
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
-        const HeightMap& piece = coarse_target(direction);
-        HeightMap tip = tip_surface(piece, tool, {operation.allowance});
+        const HeightField& piece = coarse_piece(orientation);
+        HeightField tip = cl_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
-        raise_to_foam(tip, stock_.lowest(direction, tip), tool, operation.step_down);
+        stay_near_stock(tip, stock_.lowest(orientation, tip), tool, operation.stepdown);
         if (settings_.beside_block) {
-            const InProcessStock block(setup_, FoamCells::middles);
-            close_beside_foam(tip, block.highest(direction, tip), *settings_.beside_block);
+            const InProcessStock block(setup_, StockCells::centres);
+            close_beside_stock(tip, block.highest(orientation, tip), *settings_.beside_block);
         }
-        CarvingSpace space = space_of(piece, operation);
-        space.tip_limit = &tip;
+        MillingSpace space = space_of(piece, operation);
+        space.cl_limit = &tip;
         space.is_limit_between = false;
         RoughingOptions options;
         if (!is_first) {
-            options = {operation.step_down, settings_.allowance + skin_beyond};
+            options = {operation.stepdown, settings_.allowance + skin_beyond};
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
@@ -182,38 +182,39 @@ class ToolpathMaker {
 
     // From all directions; then surface that stays blocked for one is left to the others.
     void finish(std::size_t tool, OperationKind kind) {
-        const std::size_t directions = setup_.reach.directions.size();
+        const std::size_t directions = setup_.access.orientations.size();
         for (std::size_t d = 0; d < directions; ++d) {
             report();
             finish_along(d, tool, kind, false);
         }
         retry(tool);
-        for (int k = 0; k < most_handed_over && directions > 1 && give_back(tool); ++k) {
+        for (int k = 0; k < max_given_back && directions > 1 && give_back(tool); ++k) {
             for (std::size_t d = 0; d < directions; ++d) finish_along(d, tool, kind, true);
             retry(tool);
         }
     }
 
-    // With `over_foam` it goes no deeper than the foam that stands lets it.
-    void finish_along(std::size_t direction, std::size_t tool_index, OperationKind kind, bool over_foam) {
-        const CarvingTool& tool = machine_.tools[tool_index];
+    // With `over_stock` it goes no deeper than the foam that stands lets it.
+    void finish_along(std::size_t orientation, std::size_t tool_index, OperationKind kind, bool over_stock) {
+        const CuttingTool& tool = machine_.tools[tool_index];
         FinishingOptions options;
         options.scallop = kind == OperationKind::finishing ? settings_.scallop : settings_.fine_scallop;
         options.path_tolerance = settings_.path_tolerance;
         options.rounding = settings_.rounding;
-        Operation operation = new_operation(direction, tool_index, kind);
-        operation.step = finishing_step(tool, options);
+        Operation operation = new_operation(orientation, tool_index, kind);
+        operation.stepover = finishing_stepover(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        const double floor_z = finishing_floor(setup_.tool_axis(direction), 0.5 * tool.diameter);
-        auto over_piece = std::make_unique<ToolOverPiece>(target(direction, settings_.cell, floor_z), tool);
-        HeightMap own_tip = tip_surface(over_piece->piece, tool, finishing_tip_options);  // without holder and spindle
-        HeightMap tip = finishing_tip(operation, over_piece->piece, own_tip);
-        if (over_foam) raise_to_limit(tip, limit_now(operation));
+        const double floor_z = finishing_floor(setup_.tool_axis(orientation), 0.5 * tool.diameter);
+        auto over_piece = std::make_unique<ToolOverPiece>(target(orientation, settings_.cell, floor_z), tool);
+        HeightField own_tip =
+            cl_surface(over_piece->piece, tool, finishing_dilation_options);  // without holder and spindle
+        HeightField tip = finishing_cl_surface(operation, over_piece->piece, own_tip);
+        if (over_stock) raise_to_limit(tip, limit_now(operation));
         const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
-        if (is_empty && !over_foam) is_empty_.insert({tool_index, direction});
-        const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
+        if (is_empty && !over_stock) is_empty_.insert({tool_index, orientation});
+        const bool has_floor = orientation == 0 && kind == OperationKind::finishing && !over_stock;
         if (is_empty && !has_floor) return;
         const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
         if (has_floor) options.floor = &floor;
@@ -222,25 +223,25 @@ class ToolpathMaker {
         passes = near_surface(passes, own_tip);
         own_tip = {};
         PassesLeft left{std::move(operation), std::move(over_piece), std::move(tip), std::move(passes), left_.takes()};
-        carve(left);
+        mill(left);
         if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
 
     // A finishing tool over the map of the piece. It stays where it is.
     struct ToolOverPiece {
-        ToolOverPiece(HeightMap map, const CarvingTool& of)
-            : piece(std::move(map)), tool(piece, of, finishing_tip_options) {}
-        HeightMap piece;
-        TipDilation tool;
+        ToolOverPiece(HeightField map, const CuttingTool& of)
+            : piece(std::move(map)), tool(piece, of, finishing_dilation_options) {}
+        HeightField piece;
+        ToolDilation tool;
     };
 
-    // Passes of an operation that are not carved yet, over its tip surface.
+    // Passes of an operation that are not milled yet, over its CL surface.
     struct PassesLeft {
         Operation operation;  // without runs
         std::unique_ptr<ToolOverPiece> over_piece;
-        HeightMap tip;
+        HeightField tip;
         std::vector<Pass> passes;
-        std::size_t take = 0;  // of SurfaceLeft; 0: the surface was given back
+        std::size_t take = 0;  // of RestMaterial; 0: the surface was given back
     };
 
     static double lowest_of(const std::vector<Pass>& passes) {
@@ -252,45 +253,45 @@ class ToolpathMaker {
     }
 
     // Carves what foam does not block, again and again, because passes free others; the rest is left. The length in mm
-    // of what was carved.
-    double carve(PassesLeft& left) {
-        const CarvingTool& tool = machine_.tools[left.operation.tool];
+    // of what was milled.
+    double mill(PassesLeft& left) {
+        const CuttingTool& tool = machine_.tools[left.operation.tool];
         const ToolBody body = body_of(left.operation.tool);
-        CarvingSpace space = space_of(coarse_target(left.operation.direction), left.operation);
-        space.tip_limit = &left.tip;
+        MillingSpace space = space_of(coarse_piece(left.operation.orientation), left.operation);
+        space.cl_limit = &left.tip;
         space.tool = &left.over_piece->tool;
         LinkOptions links;
         links.slack = settings_.path_tolerance;
-        RunBuilder runs(space, tool, left.operation, links);
-        double carved = 0;
+        ToolpathLinker runs(space, tool, left.operation, links);
+        double milled = 0;
         while (!left.passes.empty()) {
             context_.check_cancelled();
-            space.holder_limit =
-                holder_limit_over(space.middle_foam, body, finishing_gap(setup_, foam_cell_), lowest_of(left.passes));
+            space.holder_clearance_height = holder_clearance_over(
+                space.centre_stock, body, finishing_gap(setup_, stock_cell_), lowest_of(left.passes));
             ClippedPasses parts = clipped(left.passes, space, tool);
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);
-            carved += length;
+            milled += length;
             runs.add(parts.free);
             if (length < worth_a_round) break;
         }
         add(left.operation, space, runs.finish());
-        return carved;
+        return milled;
     }
 
-    // Takes up the passes of a tool that foam has blocked, until a round over the directions carves nothing. Whether
+    // Takes up the passes of a tool that foam has blocked, until a round over the directions mills nothing. Whether
     // any did.
     bool retry(std::size_t tool) {
-        bool has_carved = false;
+        bool has_milled = false;
         for (bool goes_on = true; goes_on;) {
             goes_on = false;
             for (PassesLeft& left : blocked_) {
-                if (left.operation.tool == tool && carve(left) >= worth_a_round) goes_on = true;
+                if (left.operation.tool == tool && mill(left) >= worth_a_round) goes_on = true;
             }
             std::erase_if(blocked_, [](const PassesLeft& left) { return left.passes.empty(); });
-            has_carved = has_carved || goes_on;
+            has_milled = has_milled || goes_on;
         }
-        return has_carved;
+        return has_milled;
     }
 
     // Marks surface under passes that stay blocked as left again. Whether there is any.
@@ -302,64 +303,65 @@ class ToolpathMaker {
             for (const Pass& pass : left.passes) length += length_of(pass) < long_blocked ? 0 : length_of(pass);
             if (length < worth_another) continue;
             context_.check_cancelled();
-            HeightMap tip = left.tip;
+            HeightField tip = left.tip;
             raise_to_limit(tip, limit_now(left.operation));
-            const HeightMap remaining = remaining_surface(tip, machine_.tools[tool]);
+            const HeightField remaining = remaining_surface(tip, machine_.tools[tool]);
             if (left_.give_back(left.take, remaining, near(left.operation))) is_any = true;
             left.take = 0;
         }
         return is_any;
     }
 
-    HeightMap limit_now(const Operation& operation) {
-        const HeightMap foam = middle_stock_.highest(operation.direction, coarse_target(operation.direction));
-        return limit_over_foam(foam, machine_.tools[operation.tool], body_of(operation.tool),
-                               finishing_gap(setup_, foam_cell_));
+    HeightField limit_now(const Operation& operation) {
+        const HeightField stock = centre_stock_.highest(operation.orientation, coarse_piece(operation.orientation));
+        return limit_over_stock(stock, machine_.tools[operation.tool], body_of(operation.tool),
+                                finishing_gap(setup_, stock_cell_));
     }
 
     // Foam up to so much is as good as none.
     double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
 
-    // A tip surface over the piece, raised for holder and spindle.
-    HeightMap finishing_tip(const Operation& operation, const HeightMap& piece, HeightMap tip) {
+    // A CL surface over the piece, raised for holder and spindle.
+    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField tip) {
         const ToolBody body = body_of(operation.tool);
         raise_to_holder(tip, piece, body, setup_.piece_in_setup);
         const double foam_left = operation.scallop + settings_.path_tolerance;
-        raise_to_limit(tip, limit_over_finished(coarse_target(operation.direction), foam_left, body,
-                                                finishing_gap(setup_, foam_cell_)));
+        raise_to_limit(tip, limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
+                                                finishing_gap(setup_, stock_cell_)));
         return tip;
     }
 
-    // What the operation finishes over its tip surface.
-    FinishingRegion finishing_region(const Operation& operation, const HeightMap& tip) {
-        const CarvingTool& tool = machine_.tools[operation.tool];
+    // What the operation finishes over its CL surface.
+    FinishingRegion finishing_region(const Operation& operation, const HeightField& tip) {
+        const CuttingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
-        return left_.take(remaining_surface(tip, tool), near(operation), operation.step, is_fine ? near(operation) : 0);
+        return left_.take(remaining_surface(tip, tool), near(operation), operation.stepover,
+                          is_fine ? near(operation) : 0);
     }
 
     // The floor within a tool's width of the piece.
-    static FinishingRegion floor_band(const HeightMap& piece, double width) {
+    static FinishingRegion floor_band(const HeightField& piece, double width) {
         FinishingRegion floor(piece.height.size(), not_finished);
         add_floor_band(floor, piece, width);
         return floor;
     }
 
-    Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {
-        Operation operation = operation_of(machine_, tool, kind, direction);
-        operation.retract = retract_height(setup_, setup_.tool_axis(direction), cell_.clearance);
+    Operation new_operation(std::size_t orientation, std::size_t tool, OperationKind kind) const {
+        Operation operation = operation_of(machine_, tool, kind, orientation);
+        operation.retract = retract_height(setup_, setup_.tool_axis(orientation), cell_.clearance);
         return operation;
     }
 
     // An operation without runs is left out.
-    void add(Operation operation, const CarvingSpace& space, std::vector<PathRun> runs) {
+    void add(Operation operation, const MillingSpace& space, std::vector<PathRun> runs) {
         if (runs.empty()) return;
         for (PathRun& run : runs) {
-            run.start = map_to_setup(setup_, space.foam, run.start);
-            for (PathMove& move : run.moves) move.tip = map_to_setup(setup_, space.foam, move.tip);
+            run.start = field_to_setup(setup_, space.stock, run.start);
+            for (PathMove& move : run.moves) move.tip = field_to_setup(setup_, space.stock, move.tip);
         }
         operation.runs = std::move(runs);
-        stock_.remove_above(operation.direction, space.removed);
-        middle_stock_.remove_above(operation.direction, space.middle_removed);
+        stock_.remove_above(operation.orientation, space.removed);
+        centre_stock_.remove_above(operation.orientation, space.centre_removed);
         toolpath_.operations.push_back(std::move(operation));
     }
 
@@ -371,12 +373,12 @@ class ToolpathMaker {
     const Context& context_;
     ToolChoice tools_;
     InProcessStock stock_;
-    InProcessStock middle_stock_;
-    SurfaceLeft left_;
+    InProcessStock centre_stock_;
+    RestMaterial left_;
     std::vector<PassesLeft> blocked_;
     ToolsAlong is_empty_;  // tools that have nothing to finish along a direction
-    double foam_cell_ = 1;
-    std::vector<HeightMap> coarse_targets_;  // of each direction; empty until it is asked for
+    double stock_cell_ = 1;
+    std::vector<HeightField> coarse_pieces_;  // of each direction; empty until it is asked for
     double border_ = 0;
     std::size_t done_ = 0;
     std::size_t total_ = 0;
@@ -385,14 +387,15 @@ class ToolpathMaker {
 
 }  // namespace
 
-double retract_height(const Setup& setup, Vec3 out, double clearance) {
+double retract_height(const Setup& setup, Vec3 tool_axis, double clearance) {
     const Vec3 corner = setup.milled_box().max;
-    return std::abs(out.x) * corner.x + std::abs(out.y) * corner.y + std::max(0.0, out.z) * corner.z + clearance;
+    return std::abs(tool_axis.x) * corner.x + std::abs(tool_axis.y) * corner.y + std::max(0.0, tool_axis.z) * corner.z +
+           clearance;
 }
 
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
                        const Context& context, InProcessStock* left) {
-    assert(!setup.reach.directions.empty());
+    assert(!setup.access.orientations.empty());
     if (!cell.machine) {
         throw InputError(InputFault::config, "the cell file describes no machine",
                          "give a cell file with spindle and tools, docs/cell-file.md");

@@ -4,7 +4,7 @@
 // once; within a tool directions come in the order of the setup. Before finishing, its tool clears where the tool of
 // the roughing was too thick, and so does that of the fine finishing. All is judged against the foam that stands at
 // that time (in_process_stock.h): passes of finishing that foam blocks are taken up again in rounds over the
-// directions, until a round carves nothing. Surface under passes that stay blocked is then left to the other
+// directions, until a round mills nothing. Surface under passes that stay blocked is then left to the other
 // directions. The result does not depend on the number of threads (tests/cam/toolpath/make_toolpath_test.cpp).
 
 #pragma once
@@ -19,13 +19,13 @@
 
 namespace qchopper {
 
-// Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h): `clearance` above
+// Height along a direction, in setup coordinates, in which the tool comes and goes (milling_poses.h): `clearance` above
 // all of the block.
-double retract_height(const Setup& setup, Vec3 out, double clearance);
+double retract_height(const Setup& setup, Vec3 tool_axis, double clearance);
 
 // At least one operation. `left`, if given, becomes the foam that stands afterwards. Reports operations done; can be
-// cancelled. Preconditions: the mesh is that of the piece, and setup.reach.directions is not empty. Throws InputError:
-// config if the cell has no machine or no tool for it, use if a setting is not valid, if maps would have
+// cancelled. Preconditions: the mesh is that of the piece, and setup.access.orientations is not empty. Throws
+// InputError: config if the cell has no machine or no tool for it, use if a setting is not valid, if maps would have
 // too many cells, or if no operation has anything to cut.
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                        const ToolpathSettings& settings = {}, const Context& context = {},

@@ -1,6 +1,6 @@
 // A pass: a line along which the tip cuts without leaving the foam.
 //
-// mm, in the frame of the height maps of one direction (tip_surface.h).
+// mm, in the frame of the height fields of one direction (cl_surface.h).
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // Rows a pitch apart, halved again and again where the scallop between two of them is higher than it may be
-// (scallop.h with the chord and the bulge of the tip surface between the rows). The pitch is the one with which that
+// (scallop.h with the chord and the bulge of the CL surface between the rows). The pitch is the one with which that
 // gives the least length. O(cells).
 
 #include "cam/toolpath/raster_passes.h"
@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t fine = 4;  // rows per cell that may be chosen
 
-// Rows of a tip surface that are a fraction of a cell apart: linear between middles, but the higher of both where an
-// edge may lie between them. That is never deeper below the surface than a line along a row (tip_surface.h).
+// Rows of a CL surface that are a fraction of a cell apart: linear between centres, but the higher of both where an
+// edge may lie between them. That is never deeper below the surface than a line along a row (cl_surface.h).
 class FineRows {
  public:
-    FineRows(const TipView& view, double radius) : view_(view), jump_(std::sqrt(radius * view.cell())) {}
+    FineRows(const ClSurfaceView& view, double radius) : view_(view), jump_(std::sqrt(radius * view.cell())) {}
 
     double cell() const { return view_.cell(); }
     std::size_t columns() const { return view_.columns(); }
@@ -46,7 +46,7 @@ class FineRows {
     }
 
  private:
-    const TipView& view_;
+    const ClSurfaceView& view_;
     double jump_;
 };
 
@@ -59,14 +59,14 @@ using RowParts = std::vector<RowPart>;
 
 // How much closer than on a plane rows have to lie: a count per class of 1 / stretch_classes.
 constexpr std::size_t stretch_classes = 20;
-constexpr std::size_t most_stretch = 5;
-using StretchCounts = std::array<double, stretch_classes * most_stretch>;
+constexpr std::size_t max_stretch = 5;
+using StretchCounts = std::array<double, stretch_classes * max_stretch>;
 
 double stretch(double along, double across) {
     return std::sqrt(1 + across * across / (1 + along * along));
 }
 
-StretchCounts count_stretch(const TipView& view, const CellMask& mask) {
+StretchCounts count_stretch(const ClSurfaceView& view, const CellMask& mask) {
     StretchCounts counts{};
     // Every fourth cell of every fourth row tells enough.
     for (std::size_t row = 0; row < view.rows(); row += 4) {
@@ -131,7 +131,7 @@ class Raster {
  private:
     bool is_allowed(std::size_t column, std::size_t row) const { return cells_.allowed[view_.index(column, row)] != 0; }
 
-    // Whether the tip surface has no edge between two columns.
+    // Whether the CL surface has no edge between two columns.
     bool is_smooth(std::size_t row, std::size_t from, std::size_t to) const {
         for (std::size_t c = from; c < to; ++c) {
             if (view_.is_edge(view_.at(c + 1, row), view_.at(c, row))) return false;
@@ -192,7 +192,7 @@ class Raster {
     std::size_t overlap_ = 0;
 };
 
-// Where the tip surface falls so far from one middle to the next that the tool would cut into an edge between them, the
+// Where the CL surface falls so far from one middle to the next that the tool would cut into an edge between them, the
 // higher of both holds for both: chords longer than sqrt(radius * cell) cut deeper than cell / 8.
 std::vector<double> lifted_heights(const FineRows& view, const RowPart& part) {
     std::vector<double> z;
@@ -236,12 +236,12 @@ struct Pitch {
     std::size_t rows = fine;
 };
 
-Pitch best_pitch(const HeightMap& tip, const CellMask& mask, const RasterOptions& options) {
+Pitch best_pitch(const HeightField& tip, const CellMask& mask, const RasterOptions& options) {
     const double chord = chord_for_scallop(options.radius, options.scallop) / tip.cell;
     Pitch best;
     double least = std::numeric_limits<double>::infinity();
     for (const bool is_turned : {false, true}) {
-        const StretchCounts counts = count_stretch(TipView(tip, is_turned), mask);
+        const StretchCounts counts = count_stretch(ClSurfaceView(tip, is_turned), mask);
         for (auto rows = static_cast<std::size_t>(std::max(1.0, 0.5 * fine * chord));
              static_cast<double>(rows) <= fine * chord; ++rows) {
             const double density = row_density(counts, static_cast<double>(rows) / fine, chord);
@@ -255,12 +255,12 @@ Pitch best_pitch(const HeightMap& tip, const CellMask& mask, const RasterOptions
 
 }  // namespace
 
-std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightField& tip, const PassCells& cells, const RasterOptions& options,
                                 const Context& context) {
     assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
     assert(options.scallop > 0 && options.path_tolerance > 0);
     const Pitch pitch = best_pitch(tip, cells.wanted, options);
-    const TipView turned(tip, pitch.is_turned);
+    const ClSurfaceView turned(tip, pitch.is_turned);
     const FineRows view(turned, options.radius);
     context.check_cancelled();
     RowParts parts = Raster(view, cells, options, pitch.rows).parts();

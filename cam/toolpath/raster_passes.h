@@ -1,4 +1,4 @@
-// Finishing along parallel rows of a tip surface, where it is flat to moderately steep.
+// Finishing along parallel rows of a CL surface, where it is flat to moderately steep.
 
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/context.h"
-#include "cam/stock/tip_view.h"
+#include "cam/stock/cl_surface_view.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/path_reduction.h"
 
@@ -22,9 +22,9 @@ struct RasterOptions {
 
 // Rows over the cells that are allowed. Between two rows further ones are laid where the scallop would be higher over
 // wanted cells, and the overlap beside them. They run along whichever axis of the map gives the less length. Points lie
-// over the middles of columns of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
+// over the centres of columns of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
 // path_tolerance > 0.
-std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightField& tip, const PassCells& cells, const RasterOptions& options,
                                 const Context& context = {});
 
 }  // namespace qchopper

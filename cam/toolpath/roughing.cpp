@@ -10,44 +10,44 @@
 #include <utility>
 
 #include "cam/toolpath/roughing_passes.h"
-#include "segment/raster/disc_max.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double least_foam = 0.2;    // mm above a level that is worth a cut
+constexpr double min_foam = 0.2;      // mm above a level that is worth a cut
 constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam, so that it begins beside it
 
 constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
 
 class RoughingLevels {
  public:
-    RoughingLevels(CarvingSpace& space, const CarvingTool& tool, double step_down, const RoughingOptions& options)
-        : space_(space), tool_(tool), step_down_(step_down), options_(options) {
+    RoughingLevels(MillingSpace& space, const CuttingTool& tool, double stepdown, const RoughingOptions& options)
+        : space_(space), tool_(tool), stepdown_(stepdown), options_(options) {
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
         flute_radius_ = std::max(0.0, radius - flute_rim);
-        beside_ = radius - core_radius_ + cells_beside * space.foam.cell;
+        beside_ = radius - core_radius_ + cells_beside * space.stock.cell;
     }
 
     // Evenly spaced from the highest foam that is to go, to the lowest tip over such foam; of these, from above, the
-    // ones at which there is anything to carve.
+    // ones at which there is anything to mill.
     std::vector<double> heights() const {
-        const HeightMap core = disc_max(space_.foam, core_radius_);
-        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
-        const HeightMap& tip = *space_.tip_limit;
+        const HeightField core = dilate_by_disc(space_.stock, core_radius_);
+        const HeightField whole = dilate_by_disc(space_.centre_stock, flute_radius_);
+        const HeightField& tip = *space_.cl_limit;
         double top = -std::numeric_limits<double>::infinity();
         double bottom = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < core.height.size(); ++i) {
             const auto low = static_cast<double>(tip.height[i]);
             const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
-            if (!is_high && !(static_cast<double>(core.height[i]) > low + least_above())) continue;
+            if (!is_high && !(static_cast<double>(core.height[i]) > low + min_above())) continue;
             const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
             top = std::max(top, high);
             bottom = std::min(bottom, low);
         }
         if (!(top > bottom)) return {};
-        const double count = std::ceil((top - bottom) / step_down_ - 1e-6);
+        const double count = std::ceil((top - bottom) / stepdown_ - 1e-6);
         const double down = (top - bottom) / count;
         // Cells that begin to have work at a level, less those that have none from there on.
         std::vector<std::ptrdiff_t> begins(static_cast<std::size_t>(count) + 2, 0);
@@ -55,7 +55,7 @@ class RoughingLevels {
             return static_cast<std::size_t>(std::clamp((top - height) / down, 1.0, count + 1));
         };
         for (std::size_t i = 0; i < core.height.size(); ++i) {
-            const double high = std::max(static_cast<double>(core.height[i]) - least_above(),
+            const double high = std::max(static_cast<double>(core.height[i]) - min_above(),
                                          static_cast<double>(whole.height[i]) - highest_skin());
             if (!(high > static_cast<double>(tip.height[i]))) continue;
             // One level more to both sides: heights are rounded.
@@ -73,19 +73,19 @@ class RoughingLevels {
     }
 
     LevelRegion region(double level) const {
-        LevelRegion region{space_.foam.cell, space_.foam.columns, space_.foam.rows, {}, {}};
+        LevelRegion region{space_.stock.cell, space_.stock.columns, space_.stock.rows, {}, {}};
         const auto height = static_cast<float>(level);
         const std::vector<std::uint8_t> core =
-            near_foam(space_.foam, static_cast<float>(level + least_above()), core_radius_);
+            near_stock(space_.stock, static_cast<float>(level + min_above()), core_radius_);
         const std::vector<std::uint8_t> skin =
-            near_foam(space_.middle_foam, static_cast<float>(level + highest_skin()), flute_radius_);
+            near_stock(space_.centre_stock, static_cast<float>(level + highest_skin()), flute_radius_);
         const std::vector<std::uint8_t> over_flute =
-            near_foam(space_.middle_foam, static_cast<float>(level + tool_.flute_length), flute_radius_);
+            near_stock(space_.centre_stock, static_cast<float>(level + tool_.flute_length), flute_radius_);
         region.is_allowed.resize(core.size());
         std::vector<std::uint8_t> work(core.size());
         for (std::size_t i = 0; i < core.size(); ++i) {
-            const bool is_allowed =
-                space_.tip_limit->height[i] <= height && space_.holder_limit.height[i] <= height && over_flute[i] == 0;
+            const bool is_allowed = space_.cl_limit->height[i] <= height &&
+                                    space_.holder_clearance_height.height[i] <= height && over_flute[i] == 0;
             region.is_allowed[i] = is_allowed ? 1 : 0;
             work[i] = is_allowed && (core[i] != 0 || skin[i] != 0) ? 1 : 0;
         }
@@ -95,19 +95,19 @@ class RoughingLevels {
 
  private:
     // The cells that have foam above a height within a radius.
-    static std::vector<std::uint8_t> near_foam(const HeightMap& foam, float height, double radius) {
-        std::vector<std::uint8_t> above(foam.height.size());
-        for (std::size_t i = 0; i < above.size(); ++i) above[i] = foam.height[i] > height ? 1 : 0;
-        return marked_within(above, foam.columns, foam.rows, radius / foam.cell);
+    static std::vector<std::uint8_t> near_stock(const HeightField& stock, float height, double radius) {
+        std::vector<std::uint8_t> above(stock.height.size());
+        for (std::size_t i = 0; i < above.size(); ++i) above[i] = stock.height[i] > height ? 1 : 0;
+        return marked_within(above, stock.columns, stock.rows, radius / stock.cell);
     }
 
     // A higher skin is not left to finishing: at the next level but one it would be higher than the flute.
-    double highest_skin() const { return std::max(0.5 * tool_.flute_length, tool_.flute_length - 2 * step_down_); }
-    double least_above() const { return std::max(least_foam, options_.skin_height); }
+    double highest_skin() const { return std::max(0.5 * tool_.flute_length, tool_.flute_length - 2 * stepdown_); }
+    double min_above() const { return std::max(min_foam, options_.skin_height); }
 
-    const CarvingSpace& space_;
-    const CarvingTool& tool_;
-    double step_down_;
+    const MillingSpace& space_;
+    const CuttingTool& tool_;
+    double stepdown_;
     RoughingOptions options_;
     double core_radius_ = 0;   // foam within it is to go
     double flute_radius_ = 0;  // foam within it is cut by the flute
@@ -116,24 +116,24 @@ class RoughingLevels {
 
 }  // namespace
 
-std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
+std::vector<PathRun> rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body,
                            const Operation& operation, const RoughingOptions& options, const Context& context) {
-    const RoughingLevels levels(space, tool, operation.step_down, options);
+    const RoughingLevels levels(space, tool, operation.stepdown, options);
     const std::vector<double> heights = levels.heights();
     double highest = -std::numeric_limits<double>::infinity();  // foam only gets lower
-    for (const float height : space.foam.height) highest = std::max(highest, static_cast<double>(height));
-    space.holder_limit = {};
+    for (const float height : space.stock.height) highest = std::max(highest, static_cast<double>(height));
+    space.holder_clearance_height = {};
     LinkOptions links;
     links.has_ramps = true;
     links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
-    RunBuilder runs(space, tool, operation, links);
+    ToolpathLinker runs(space, tool, operation, links);
     for (const double level : heights) {
         context.check_cancelled();
         // The float of the lowest tip is not above the level.
-        if (space.holder_limit.height.empty() || is_holder_limiting(highest, body, holder_gap, level)) {
-            space.holder_limit = holder_limit_over(space.foam, body, holder_gap, level);
+        if (space.holder_clearance_height.height.empty() || is_holder_limiting(highest, body, holder_gap, level)) {
+            space.holder_clearance_height = holder_clearance_over(space.stock, body, holder_gap, level);
         }
-        runs.add(roughing_passes(levels.region(level), level, operation.step));
+        runs.add(roughing_passes(levels.region(level), level, operation.stepover));
     }
     return runs.finish();
 }

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/context.h"
-#include "cam/cell/carving_tool.h"
-#include "cam/setup/holder_limit.h"
-#include "cam/toolpath/links.h"
+#include "cam/cell/cutting_tool.h"
+#include "cam/setup/holder_clearance.h"
 #include "cam/toolpath/toolpath.h"
-#include "segment/raster/height_map.h"
+#include "cam/toolpath/toolpath_linker.h"
+#include "segment/raster/height_field.h"
 
 namespace qchopper {
 
@@ -25,10 +25,10 @@ struct RoughingOptions {
 
 // Runs in map coordinates that leave no foam higher than a level's height above the tip limit where the tool comes to
 // it; none where there is nothing to do. The space is that of the direction: its tip limit has the cells of the foam
-// and includes the allowance, foam and removed are lowered. The step, step_down and the feeds are the operation's. No
+// and includes the allowance, foam and removed are lowered. The step, stepdown and the feeds are the operation's. No
 // cut removes foam above the flute, and holder and spindle stay clear of foam at every level: what they keep from is
 // left. Checks for cancellation at each level. O(levels * cells * widest radius / cell).
-std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
+std::vector<PathRun> rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body,
                            const Operation& operation, const RoughingOptions& options, const Context& context);
 
 }  // namespace qchopper

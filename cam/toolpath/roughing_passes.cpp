@@ -14,8 +14,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double most_beside = 0.75;        // cells by which a line may pass beside a point that is left out
-constexpr std::size_t most_left_out = 200;  // points in a line
+constexpr double max_beside = 0.75;        // cells by which a line may pass beside a point that is left out
+constexpr std::size_t max_left_out = 200;  // points in a line
 
 struct CellPlace {
     std::ptrdiff_t column = 0;
@@ -103,7 +103,7 @@ double distance_to_line(CellPlace p, CellPlace a, CellPlace b) {
 
 bool is_line_near(const LevelRegion& region, const std::vector<CellPlace>& cells, std::size_t first, std::size_t last) {
     for (std::size_t i = first + 1; i < last; ++i) {
-        if (distance_to_line(cells[i], cells[first], cells[last]) > most_beside) return false;
+        if (distance_to_line(cells[i], cells[first], cells[last]) > max_beside) return false;
     }
     return is_line_in(region, cells[first], cells[last]);
 }
@@ -113,8 +113,7 @@ std::vector<CellPlace> reduced(const LevelRegion& region, const std::vector<Cell
     std::size_t first = 0;
     while (first + 1 < cells.size()) {
         std::size_t last = first + 1;
-        while (last + 1 < cells.size() && last - first < most_left_out &&
-               is_line_near(region, cells, first, last + 1)) {
+        while (last + 1 < cells.size() && last - first < max_left_out && is_line_near(region, cells, first, last + 1)) {
             ++last;
         }
         kept.push_back(cells[last]);

@@ -37,6 +37,6 @@ struct LevelRegion {
 
 // At a height, with rows at most `step` apart. Every wanted cell that has a neighbour is at most half of the step and a
 // cell from a pass. O(cells + points * length of the lines).
-std::vector<Pass> roughing_passes(const LevelRegion& region, double height, double step);
+std::vector<Pass> roughing_passes(const LevelRegion& region, double height, double stepover);
 
 }  // namespace qchopper

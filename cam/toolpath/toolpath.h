@@ -1,7 +1,7 @@
 // The toolpath of a setup: where the tip of which tool goes, in which order, before any machine is asked.
 //
 // Values only; lengths in mm, in setup coordinates (cam/setup/setup.h), speeds in mm/s. The tip of a tool is the point
-// of its lowest end on its axis; while a direction is carved the tool axis points along -out.
+// of its lowest end on its axis; while a direction is milled the tool axis points along -tool_axis.
 
 #pragma once
 
@@ -45,15 +45,15 @@ struct PathRun {
 // What one tool does from one direction.
 struct Operation {
     OperationKind kind = OperationKind::roughing;
-    std::size_t tool = 0;       // index in CellMachine::tools
-    std::size_t direction = 0;  // index in SurfaceReach::directions of the setup; of drilling also beyond (drilling.h)
-    double feed = 0;            // of cuts
+    std::size_t tool = 0;         // index in CellMachine::tools
+    std::size_t orientation = 0;  // index in SurfaceAccess::orientations; of drilling also beyond (drilling.h)
+    double feed = 0;              // of cuts
     double approach_feed = 0;
     double link_feed = 0;  // of links and retracts
     double rpm = 0;
     double rounding = 0;        // see PathMove::is_rounded
-    double step = 0;            // largest distance between neighbouring passes
-    double step_down = 0;       // of roughing: height of a level; else 0
+    double stepover = 0;        // largest distance between neighbouring passes
+    double stepdown = 0;        // of roughing: height of a level; else 0
     double allowance = 0;       // of foam that is left on the piece
     double scallop = 0;         // of finishing: the scallop height that holds wherever the tool fits; else 0
     double retract = 0;         // height along the direction's `out` of the plane in which runs begin and end
@@ -63,15 +63,15 @@ struct Operation {
 
 // A ball-ended tool that the toolpath does not use along a direction, and why.
 struct UnusedTool {
-    std::optional<std::size_t> tool;       // index in CellMachine::tools; nothing: no tool of the cell
-    std::optional<std::size_t> direction;  // index in SurfaceReach::directions; nothing: along none
-    std::string because;                   // for people, without a full stop
+    std::optional<std::size_t> tool;         // index in CellMachine::tools; nothing: no tool of the cell
+    std::optional<std::size_t> orientation;  // index in SurfaceAccess::orientations; nothing: along none
+    std::string because;                     // for people, without a full stop
     bool operator==(const UnusedTool&) const = default;
 };
 
 struct Toolpath {
-    std::vector<Operation> operations;  // in the order in which they are carved; at least one
-    double cell = 0;                    // of the height maps that finishing was made from
+    std::vector<Operation> operations;  // in the order in which they are milled; at least one
+    double cell = 0;                    // of the height fields that finishing was made from
     double path_tolerance = 0;  // by how much points were reduced: the path is at most so far above the exact one
     std::vector<UnusedTool> unused = {};  // of all directions of the setup
     bool operator==(const Toolpath&) const = default;

@@ -18,11 +18,11 @@ namespace {
     throw InputError(InputFault::use, what, to_do);
 }
 
-using IsBetter = std::function<bool(const CarvingTool&, const CarvingTool&)>;
-using IsMeant = std::function<bool(const CarvingTool&)>;
+using IsBetter = std::function<bool(const CuttingTool&, const CuttingTool&)>;
+using IsMeant = std::function<bool(const CuttingTool&)>;
 
 // The best of the tools that are meant, the first of equal ones.
-std::optional<std::size_t> best(const std::vector<CarvingTool>& tools, const IsMeant& is_meant,
+std::optional<std::size_t> best(const std::vector<CuttingTool>& tools, const IsMeant& is_meant,
                                 const IsBetter& is_better) {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < tools.size(); ++i) {
@@ -31,11 +31,11 @@ std::optional<std::size_t> best(const std::vector<CarvingTool>& tools, const IsM
     return found;
 }
 
-bool is_ball(const CarvingTool& tool) {
+bool is_ball(const CuttingTool& tool) {
     return tool.shape == ToolShape::ball;
 }
 
-bool is_larger(const CarvingTool& a, const CarvingTool& b) {
+bool is_larger(const CuttingTool& a, const CuttingTool& b) {
     return a.diameter > b.diameter;
 }
 
@@ -50,10 +50,10 @@ std::size_t given(const CellMachine& machine, std::size_t tool, const std::strin
     return tool;
 }
 
-std::size_t roughing_tool(const std::vector<CarvingTool>& tools) {
+std::size_t roughing_tool(const std::vector<CuttingTool>& tools) {
     const auto found = best(
-        tools, [](const CarvingTool& t) { return is_ball(t) || t.shape == ToolShape::flat; },
-        [](const CarvingTool& a, const CarvingTool& b) {
+        tools, [](const CuttingTool& t) { return is_ball(t) || t.shape == ToolShape::flat; },
+        [](const CuttingTool& a, const CuttingTool& b) {
             return std::pair(a.diameter, a.shape == ToolShape::flat) >
                    std::pair(b.diameter, b.shape == ToolShape::flat);
         });
@@ -62,27 +62,27 @@ std::size_t roughing_tool(const std::vector<CarvingTool>& tools) {
     return *found;
 }
 
-std::size_t finishing_tool(const std::vector<CarvingTool>& tools, double roughing_diameter) {
-    const IsMeant is_smaller = [&](const CarvingTool& t) { return is_ball(t) && t.diameter < roughing_diameter; };
+std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughing_diameter) {
+    const IsMeant is_smaller = [&](const CuttingTool& t) { return is_ball(t) && t.diameter < roughing_diameter; };
     auto found = best(tools, is_smaller, is_larger);
     if (!found) found = best(tools, is_ball, is_larger);
     if (!found) throw InputError(InputFault::config, "the cell has no ball-ended tool", "add one to the cell file");
     return *found;
 }
 
-std::optional<std::size_t> fine_tool(const std::vector<CarvingTool>& tools, double finishing_diameter) {
+std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter) {
     return best(
-        tools, [&](const CarvingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
-        [](const CarvingTool& a, const CarvingTool& b) { return a.diameter < b.diameter; });
+        tools, [&](const CuttingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
+        [](const CuttingTool& a, const CuttingTool& b) { return a.diameter < b.diameter; });
 }
 
-void check_scallop(double scallop, const CarvingTool& tool, const std::string& name) {
+void check_scallop(double scallop, const CuttingTool& tool, const std::string& name) {
     if (!(scallop < 0.5 * tool.diameter))
         refuse(name + " is not less than the radius of tool " + std::to_string(tool.number));
 }
 
-void check_step_down(const CarvingTool& tool, const ToolpathSettings& settings) {
-    if (settings.step_down <= tool.flute_length) return;
+void check_stepdown(const CuttingTool& tool, const ToolpathSettings& settings) {
+    if (settings.stepdown <= tool.flute_length) return;
     refuse("step_down is deeper than the flute of tool " + std::to_string(tool.number) + " is long",
            "give at most " + std::to_string(std::lround(std::floor(tool.flute_length))) + " mm");
 }
@@ -90,7 +90,7 @@ void check_step_down(const CarvingTool& tool, const ToolpathSettings& settings) 
 }  // namespace
 
 ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings) {
-    const std::vector<CarvingTool>& tools = machine.tools;
+    const std::vector<CuttingTool>& tools = machine.tools;
     ToolChoice choice;
     choice.roughing =
         settings.roughing_tool ? given(machine, *settings.roughing_tool, "roughing_tool", false) : roughing_tool(tools);
@@ -105,15 +105,15 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
     return choice;
 }
 
-double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings) {
-    return std::min({settings.step_down, 0.75 * tool.diameter, tool.flute_length});
+double stepdown_of(const CuttingTool& tool, const ToolpathSettings& settings) {
+    return std::min({settings.stepdown, 0.75 * tool.diameter, tool.flute_length});
 }
 
 void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools) {
     const std::vector<std::pair<const char*, double>> positive{
-        {"scallop", settings.scallop},     {"fine_scallop", settings.fine_scallop},
-        {"cell", settings.cell},           {"path_tolerance", settings.path_tolerance},
-        {"step_down", settings.step_down}, {"step_share", settings.step_share}};
+        {"scallop", settings.scallop},    {"fine_scallop", settings.fine_scallop},
+        {"cell", settings.cell},          {"path_tolerance", settings.path_tolerance},
+        {"step_down", settings.stepdown}, {"step_share", settings.stepover_share}};
     for (const auto& [name, value] : positive) {
         if (!(value > 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is not above zero");
     }
@@ -125,20 +125,20 @@ void check_settings(const ToolpathSettings& settings, const CellMachine& machine
     for (const auto& [name, value] : not_negative) {
         if (!(value >= 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is below zero");
     }
-    if (settings.step_share >= 1) refuse("step_share of the toolpath is not less than 1");
+    if (settings.stepover_share >= 1) refuse("step_share of the toolpath is not less than 1");
     if (settings.fine_allowance > settings.allowance) refuse("fine_allowance is more than allowance");
-    check_step_down(machine.tools[tools.roughing], settings);
-    check_step_down(machine.tools[tools.finishing], settings);
+    check_stepdown(machine.tools[tools.roughing], settings);
+    check_stepdown(machine.tools[tools.finishing], settings);
     check_scallop(settings.scallop, machine.tools[tools.finishing], "scallop");
     if (tools.fine) check_scallop(settings.fine_scallop, machine.tools[*tools.fine], "fine_scallop");
 }
 
-Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t direction) {
-    const CarvingTool& used = machine.tools[tool];
+Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t orientation) {
+    const CuttingTool& used = machine.tools[tool];
     Operation operation;
     operation.kind = kind;
     operation.tool = tool;
-    operation.direction = direction;
+    operation.orientation = orientation;
     operation.feed = used.feed_max_mm_per_s;
     operation.approach_feed = std::max(used.feed_min_mm_per_s, 0.5 * used.feed_max_mm_per_s);
     operation.link_feed = std::max(machine.program.link_feed_mm_per_s, operation.feed);

@@ -17,8 +17,8 @@ struct ToolpathSettings {
     double cell = 0.25;            // of the maps for finishing
     double allowance = 1.5;        // that roughing leaves
     double fine_allowance = 0.5;   // that roughing with the tool of the finishing leaves
-    double step_down = 15;         // largest height of a level of roughing
-    double step_share = 0.6;       // largest distance between passes of roughing, of the tool's diameter
+    double stepdown = 15;          // largest height of a level of roughing
+    double stepover_share = 0.6;   // largest distance between passes of roughing, of the tool's diameter
     double rounding = 5;           // see PathMove::is_rounded: of finishing
     double roughing_rounding = 1;  // the same of roughing; at most two thirds of the allowance
     // How far roughing comes beside the projection of the block; nothing: as far as it takes to begin beside the foam.
@@ -44,7 +44,7 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
 
 // Height of the levels of roughing with a tool: at most that of the settings, three quarters of its diameter, and its
 // flute.
-double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings);
+double stepdown_of(const CuttingTool& tool, const ToolpathSettings& settings);
 
 // Throws InputError (use), which names the setting, if one is not finite or not above zero (allowances and beside_block
 // may be zero), if the height of levels is more than the flute of a tool that roughs, but for the fine one, if the
@@ -54,6 +54,6 @@ void check_settings(const ToolpathSettings& settings, const CellMachine& machine
 
 // Feeds and speed of a tool, in an operation without runs. A cut has the largest feed of the tool's window, an approach
 // half of that but at least the least one, links the cell's.
-Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t direction);
+Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t orientation);
 
 }  // namespace qchopper

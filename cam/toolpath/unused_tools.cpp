@@ -25,13 +25,13 @@ class Listing {
     Listing(const CellMachine& machine, const ToolChoice& chosen, const Toolpath& toolpath,
             const ToolsAlong& has_nothing)
         : machine_(machine), chosen_(chosen), has_nothing_(has_nothing) {
-        for (const Operation& operation : toolpath.operations) used_.insert({operation.tool, operation.direction});
+        for (const Operation& operation : toolpath.operations) used_.insert({operation.tool, operation.orientation});
     }
 
     std::vector<UnusedTool> list(std::size_t directions) const {
         std::vector<UnusedTool> unused;
         for (std::size_t d = 0; d < directions; ++d) {
-            if (!is_carved(d)) unused.push_back({std::nullopt, d, why(chosen_.fine.value_or(chosen_.finishing), d)});
+            if (!is_milled(d)) unused.push_back({std::nullopt, d, why(chosen_.fine.value_or(chosen_.finishing), d)});
         }
         for (std::size_t tool = 0; tool < machine_.tools.size(); ++tool) {
             if (machine_.tools[tool].shape != ToolShape::ball) continue;
@@ -40,23 +40,23 @@ class Listing {
                 continue;
             }
             for (std::size_t d = 0; d < directions; ++d) {
-                if (is_carved(d) && !used_.contains({tool, d})) unused.push_back({tool, d, why(tool, d)});
+                if (is_milled(d) && !used_.contains({tool, d})) unused.push_back({tool, d, why(tool, d)});
             }
         }
         return unused;
     }
 
  private:
-    bool is_carved(std::size_t direction) const {
-        return std::any_of(used_.begin(), used_.end(), [&](const auto& pair) { return pair.second == direction; });
+    bool is_milled(std::size_t orientation) const {
+        return std::any_of(used_.begin(), used_.end(), [&](const auto& pair) { return pair.second == orientation; });
     }
     bool is_chosen(std::size_t tool) const {
         return tool == chosen_.roughing || tool == chosen_.finishing || tool == chosen_.fine;
     }
-    std::string why(std::size_t tool, std::size_t direction) const {
+    std::string why(std::size_t tool, std::size_t orientation) const {
         const bool finishes = tool == chosen_.finishing || tool == chosen_.fine;
         if (!finishes) return "it roughs, and no foam is left for that";
-        if (has_nothing_.contains({tool, direction})) {
+        if (has_nothing_.contains({tool, orientation})) {
             return "tools and directions before it leave no surface that it would finish";
         }
         return "foam that stands keeps its holder or its flute from all of its passes";

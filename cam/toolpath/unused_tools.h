@@ -15,11 +15,11 @@
 
 namespace qchopper {
 
-// Indices in CellMachine::tools and SurfaceReach::directions.
+// Indices in CellMachine::tools and SurfaceAccess::orientations.
 using ToolsAlong = std::set<std::pair<std::size_t, std::size_t>>;
 
 // Of the ball-ended tools of the cell, of which the toolpath was made with those of `chosen`. `has_nothing` are those
-// of them that have nothing to finish along a direction. A direction along which nothing is carved is listed once.
+// of them that have nothing to finish along a direction. A direction along which nothing is milled is listed once.
 std::vector<UnusedTool> unused_tools(const CellMachine& machine, const ToolChoice& chosen, std::size_t directions,
                                      const Toolpath& toolpath, const ToolsAlong& has_nothing);
 

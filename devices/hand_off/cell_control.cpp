@@ -8,7 +8,7 @@
 
 #include "devices/hand_off/command_number.h"
 #include "devices/hand_off/first_contact.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 #include "devices/hand_off/random.h"
 #include "devices/hand_off/seen_store.h"
 #include "devices/wire/codec.h"
@@ -141,13 +141,13 @@ class Control {
     }
 
     bool claim() {
-        constexpr int most_claims = 4;
+        constexpr int max_claims = 4;
         for (int claims = 1;; ++claims) {
             epoch_ = std::max(order_.past.epoch, end_.status.epoch_held) + 1;
             seq_ = number_after(end_.status, owner_, seq_);
             bad_frames_ = end_.status.bad_frames;
             send(CellCommand::claim, order_.timings.answer_s);
-            if (!has_stale_number_ || claims == most_claims) break;
+            if (!has_stale_number_ || claims == max_claims) break;
             seq_ += skipped_numbers;
         }
         is_leased_ = end_.kind == Kind::done;
@@ -198,7 +198,7 @@ class Control {
                 sent = Clock::now();
                 bus_.write_holding(command_block.base, encode(frame));
             }
-            beat();
+            heartbeat();
             const HandOffInput input = read_status_block(bus_);
             if (input.status) end_.status = *input.status;
             if (input.status && note_answer(frame, is_pending)) return;
@@ -227,9 +227,9 @@ class Control {
         return true;
     }
 
-    void beat() {
-        if (!is_leased_ || seconds_since(beat_at_) < order_.timings.heartbeat_s) return;
-        beat_at_ = Clock::now();
+    void heartbeat() {
+        if (!is_leased_ || seconds_since(heartbeat_at_) < order_.timings.heartbeat_s) return;
+        heartbeat_at_ = Clock::now();
         bus_.write_holding(heartbeat_block.base, encode(Heartbeat{epoch_, owner_, ++counter_}));
     }
 
@@ -246,7 +246,7 @@ class Control {
     bool has_stale_number_ = false;  // the cell took the number of CLAIM for an old one
     bool is_leased_ = false;
     bool is_store_lost_ = false;
-    Clock::time_point beat_at_;
+    Clock::time_point heartbeat_at_;
 };
 
 }  // namespace

@@ -78,7 +78,7 @@ class Dispatcher {
             input = act(turn.action, state, input.cancelled);
             pass("after_" + name_of(turn.action));
         }
-        if (state.verdict == StartVerdict::not_started && journal_fault_) std::rethrow_exception(journal_fault_);
+        if (state.start_outcome == StartOutcome::not_started && journal_fault_) std::rethrow_exception(journal_fault_);
         if (state.fault) throw DeviceError(*state.fault, state.why, state.to_do);
         return outcome(state);
     }
@@ -216,7 +216,7 @@ class Dispatcher {
 
     JobOutcome outcome(const HandOff& state) {
         JobOutcome out;
-        out.verdict = state.verdict;
+        out.start_outcome = state.start_outcome;
         out.job_id = plan_.ticket.job_id;
         if (state.status && state.status->job_id == out.job_id) {
             out.job_state = state.status->job_state;
@@ -231,8 +231,8 @@ class Dispatcher {
         out.elapsed_s = state.elapsed_s;
         out.refusal = state.refusal;
         out.cancelled = state.is_cancelled;
-        out.carved_before = state.carved_before.has_value();
-        out.carved_complete = out.carved_before && state.carved_before->result == JobResult::complete;
+        out.milled_before = state.milled_before.has_value();
+        out.milled_complete = out.milled_before && state.milled_before->result == JobResult::complete;
         out.store_is_lost = state.store_is_lost;
         if (state.status) out.cell_id = state.status->cell_id;
         if (state.status) out.simulated = state.status->has(flag::simulated);

@@ -58,7 +58,7 @@ struct DispatchOptions {
     bool rehearse = false;             // REHEARSE before PREPARE
     bool stop_when_cancelled = false;  // a request to stop while the job runs also stops the machine
     HandOffTimings timings;
-    bool again = false;               // also a file that the cell has carved before
+    bool again = false;               // also a file that the cell has milled before
     std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
     std::string address;              // HOST:PORT for the commands that the operator is told to run; may be empty
     std::uint32_t owner_held = 0;     // OWNER_HELD of the first STATUS, if that was read before

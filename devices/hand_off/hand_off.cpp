@@ -12,7 +12,7 @@
 
 #include "devices/hand_off/first_contact.h"
 #include "devices/hand_off/hand_off_context.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 
 namespace qchopper::hand_off {
 
@@ -73,33 +73,34 @@ HandOffAction send(StepContext& context, CellCommand command) {
     return action;
 }
 
-HandOffAction finish(StepContext& context, StartVerdict verdict, const std::string& why, const std::string& to_do) {
-    context.h.verdict = verdict;
+HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
+                     const std::string& to_do) {
+    context.h.start_outcome = start_outcome;
     if (context.h.why.empty()) {
         context.h.why = why;
         context.h.to_do = to_do;
     }
     context.h.why += "; " + foam(context);
-    if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, verdict);
-    if (verdict == StartVerdict::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
-    if (context.h.is_cancelled && verdict == StartVerdict::not_started && context.h.claim_sent &&
+    if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, start_outcome);
+    if (start_outcome == StartOutcome::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
+    if (context.h.is_cancelled && start_outcome == StartOutcome::not_started && context.h.claim_sent &&
         !context.h.is_given_back) {
         context.h.why += "; the cell did not confirm that it dropped the job";
         context.h.to_do = "Nothing has to be done: the cell holds no valid START for it.";
     }
     context.h.step = HandOffStep::finished;
-    context.report(std::string(describe(verdict)) + ": " + context.h.why);
+    context.report(std::string(describe(start_outcome)) + ": " + context.h.why);
     end_request(context, "the dispatcher ended before the cell answered");
     keep_store(context);
-    context.keep(JournalKind::closed).verdict = verdict;
+    context.keep(JournalKind::closed).start_outcome = start_outcome;
     return plain(Kind::finish);
 }
 
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
-    if (context.h.contradicts_itself) return finish(context, StartVerdict::unknown, why, to_do);
-    if (context.h.is_started) return finish(context, StartVerdict::started, why, to_do);
-    if (context.may_have_started()) return finish(context, StartVerdict::unknown, why, to_do);
-    return finish(context, StartVerdict::not_started, why, to_do);
+    if (context.h.contradicts_itself) return finish(context, StartOutcome::unknown, why, to_do);
+    if (context.h.is_started) return finish(context, StartOutcome::started, why, to_do);
+    if (context.may_have_started()) return finish(context, StartOutcome::unknown, why, to_do);
+    return finish(context, StartOutcome::not_started, why, to_do);
 }
 
 HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do) {
@@ -116,7 +117,7 @@ HandOffAction withdraw(StepContext& context, const std::string& why, const std::
 
 HandOffAction fence(StepContext& context, const std::string& why) {
     if (context.is_leaving()) return leave_at_once(context);
-    if (++context.h.fences > most_fences) {
+    if (++context.h.fences > max_fences) {
         return give_up(context,
                        "the hand-off was interrupted " + std::to_string(context.h.fences) +
                            " times and is given up, the last time because " + why,
@@ -132,7 +133,7 @@ namespace {
 constexpr const char* mend_drop_folder =
     "See that the drop folder of the cell is there and can be written to (is its share mounted?), then dispatch again.";
 constexpr double back_off_s[] = {0.25, 0.5, 1, 2, 4, 5};
-constexpr int most_busy_answers = 10;
+constexpr int max_busy_answers = 10;
 constexpr double busy_pause_s = 0.5;
 
 HandOffAction try_contact_again(StepContext& context) {
@@ -195,7 +196,7 @@ HandOffAction on_lost(StepContext& context) {
 
 HandOffAction on_exception(StepContext& context) {
     HandOff& h = context.h;
-    if (is_busy(context.in) && ++h.busy_times <= most_busy_answers) {
+    if (is_busy(context.in) && ++h.busy_times <= max_busy_answers) {
         if (!h.deferred) h.deferred = h.last;
         const double until_s = context.now_s + busy_pause_s;
         return wait_until(context.is_leaving() ? std::min(until_s, h.leave_by_s) : until_s);
@@ -210,7 +211,7 @@ HandOffAction on_exception(StepContext& context) {
     }
     const std::string why =
         "the cell refused a request: exception " + std::to_string(context.in.exception) + " (" + context.in.why + ")";
-    if (h.start_sent && !h.is_started && h.fences < most_fences) return fence(context, why);
+    if (h.start_sent && !h.is_started && h.fences < max_fences) return fence(context, why);
     return back_out(context, why, "Tell the integrator of the cell.");
 }
 

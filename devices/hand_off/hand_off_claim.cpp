@@ -8,7 +8,7 @@
 #include "devices/hand_off/command_number.h"
 #include "devices/hand_off/hand_off.h"
 #include "devices/hand_off/hand_off_context.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 
 namespace qchopper::hand_off {
 namespace {
@@ -23,7 +23,7 @@ std::string holder(const Status& status) {
 
 HandOffAction send_claim(StepContext& context) {
     HandOff& h = context.h;
-    if (++h.claims > most_claims) return give_up(context, in_words(CellCommand::claim) + " has failed ten times");
+    if (++h.claims > max_claims) return give_up(context, in_words(CellCommand::claim) + " has failed ten times");
     h.epoch = std::max(h.epoch, context.status().epoch_held) + 1;
     h.seq = number_after(context.status(), context.plan.owner, h.seq);
     h.bad_frames = context.status().bad_frames;

@@ -46,12 +46,12 @@ struct StepContext {
 
 using Kind = HandOffAction::Kind;
 
-constexpr int most_fences = 3;
-constexpr int most_claims = 10;
-constexpr int most_bad_identities = 4;  // in a row, each read three times
-constexpr int most_odd_answers = 10;    // RESULTs in a row that do not help
-constexpr int most_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
-constexpr int most_tokenless = 3;       // acknowledged PREPAREs without a token
+constexpr int max_fences = 3;
+constexpr int max_claims = 10;
+constexpr int max_bad_identities = 4;  // in a row, each read three times
+constexpr int max_odd_answers = 10;    // RESULTs in a row that do not help
+constexpr int max_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
+constexpr int max_tokenless = 3;       // acknowledged PREPAREs without a token
 
 // The states of a job that has been started.
 constexpr bool has_started(JobState state) {
@@ -59,7 +59,7 @@ constexpr bool has_started(JobState state) {
            state == JobState::aborted;
 }
 
-// hand_off_words.cpp
+// hand_off_text.cpp
 // What is known of the foam now, as a clause: "the cell may be cutting foam".
 std::string foam(const StepContext& context);
 // The cell has shown our job as ended or aborted.
@@ -71,7 +71,7 @@ std::string look_first(const StepContext& context);
 // What to do where asking the cell again would give the same answer.
 std::string accept_memory(const StepContext& context);
 // What to do after this verdict where nothing better is known; "" after a complete end.
-std::string usual_remedy(const StepContext& context, StartVerdict verdict);
+std::string usual_remedy(const StepContext& context, StartOutcome start_outcome);
 
 // hand_off.cpp
 HandOffAction next_action(StepContext& context);
@@ -81,7 +81,8 @@ HandOffAction wait_until(double until_s);
 HandOffAction pause(StepContext& context);
 // `command` with the members of h.command that were set before, under a new CMD_SEQ.
 HandOffAction send(StepContext& context, CellCommand command);
-HandOffAction finish(StepContext& context, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
+HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
+                     const std::string& to_do = {});
 // Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED. The
 // reason is completed by what is known of the foam, and by what to do if `to_do` is empty.
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
@@ -89,7 +90,7 @@ HandOffAction give_up(StepContext& context, const std::string& why, const std::s
 HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
 // The job will not be started: CANCEL if the cell may hold it, RELEASE, and the end with this `why`.
 HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
-// CLAIM with a new epoch, which makes every earlier command void, then QUERY. Gives up after most_fences.
+// CLAIM with a new epoch, which makes every earlier command void, then QUERY. Gives up after max_fences.
 HandOffAction fence(StepContext& context, const std::string& why);
 
 // hand_off_claim.cpp
@@ -104,7 +105,7 @@ HandOffAction claim_refused(StepContext& context, AckResult result, const std::s
 // hand_off_identity.cpp
 // IDENTITY has come: continues with the step, or claims the cell again if context.h.claim_reason is set.
 HandOffAction on_identity(StepContext& context);
-// IDENTITY came damaged, several times: the end, if that was so most_bad_identities times in a row.
+// IDENTITY came damaged, several times: the end, if that was so max_bad_identities times in a row.
 std::optional<HandOffAction> on_bad_identity(StepContext& context);
 // The end, if the STATUS that has come is of another cell than the one before: CELL_ID or "simulated" differ. Nothing
 // more is sent then. To be called before it is noted.

@@ -39,7 +39,7 @@ HandOffAction compare(StepContext& context, const SeenStore& now) {
 
 std::optional<HandOffAction> on_bad_identity(StepContext& context) {
     HandOff& h = context.h;
-    if (++h.bad_identities < most_bad_identities) return std::nullopt;
+    if (++h.bad_identities < max_bad_identities) return std::nullopt;
     const std::string why = "the cell's IDENTITY cannot be read: it is " + std::string(describe(context.in.fault)) +
                             ", " + std::to_string(h.bad_identities) + " times in a row";
     const std::string to_do = "Check gateway and cable; tell the integrator of the cell.";

@@ -80,7 +80,7 @@ HandOffAction on_file_result(StepContext& context) {
         context.report("the file is carved again: " + before);
         return enter(context, make_ready);
     }
-    h.carved_before = result;
+    h.milled_before = result;
     return withdraw(context, "the cell has carved this file before: " + before,
                     "Pass --again if it is to be carved once more.");
 }
@@ -88,7 +88,7 @@ HandOffAction on_file_result(StepContext& context) {
 // Another client may have sent a QUERY in between.
 HandOffAction query_again(StepContext& context) {
     HandOff& h = context.h;
-    if (++h.odd_answers <= most_odd_answers) return pause(context);
+    if (++h.odd_answers <= max_odd_answers) return pause(context);
     const std::string why = "the cell answers QUERY repeatedly with the result of job " +
                             to_text(context.in.result->job_id) + " for the query of another client";
     if (!h.start_sent && !h.is_started) return withdraw(context, why, "Stop other programs that query the cell.");
@@ -125,7 +125,7 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
         return withdraw(context, "the job was cancelled in the cell", "Dispatch it as a new job.");
     }
     if (!started && h.is_taken_over) {
-        return finish(context, StartVerdict::not_started, "another dispatcher has taken the cell over",
+        return finish(context, StartOutcome::not_started, "another dispatcher has taken the cell over",
                       "Try again when it has finished.");
     }
     if (!started && context.plan.adopts && !h.is_started) {
@@ -166,7 +166,7 @@ HandOffAction on_result(StepContext& context) {
     h.result = result;
     if (is_over(result.state)) return report_end(context);
     // After the start there is a QUERY only if STATUS did not show the job as running.
-    if (h.step == ask_after && ++h.odd_answers > most_odd_answers) {
+    if (h.step == ask_after && ++h.odd_answers > max_odd_answers) {
         return contradict(context,
                           "QUERY reports the job as " + describe(result) + ", and STATUS shows " +
                               (context.shows_our_job() ? std::string("it as ") + name(context.status().job_state)

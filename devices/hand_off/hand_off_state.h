@@ -132,11 +132,11 @@ struct HandOff {
     bool is_taken_over = false;                 // another dispatcher holds the lease
     bool store_is_lost = false;                 // CELL_STORE_LOST
     CellCommand request = CellCommand::none;    // of another program; sent, and not yet answered
-    std::optional<ResultRecord> carved_before;  // the last job of this file, if that is why it is not started
+    std::optional<ResultRecord> milled_before;  // the last job of this file, if that is why it is not started
 
     double elapsed_s = 0;                // of the job, from the last STATUS that shows it
     std::optional<ResultRecord> result;  // of a job that has started
-    StartVerdict verdict = StartVerdict::unknown;
+    StartOutcome start_outcome = StartOutcome::unknown;
     AckResult refusal = AckResult::none;
     std::optional<DeviceFault> fault;  // finished with an error before anything was started
     std::string why;

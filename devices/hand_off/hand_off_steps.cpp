@@ -7,7 +7,7 @@
 
 #include "devices/hand_off/hand_off.h"
 #include "devices/hand_off/hand_off_context.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 
 namespace qchopper::hand_off {
 namespace {
@@ -182,7 +182,7 @@ HandOffAction make_idle(StepContext& context) {
     HandOff& h = context.h;
     const Status& status = context.status();
     const bool foreign = status.job_id != Uuid{} && status.job_id != context.job_id();
-    if (h.ready_commands > most_ready_commands) {
+    if (h.ready_commands > max_ready_commands) {
         h.fault = DeviceFault::busy;
         return withdraw(
             context,
@@ -300,7 +300,7 @@ HandOffAction acknowledged(StepContext& context) {
             break;
         case prepare:
             if (context.status().token != 0) break;
-            if (++h.tokenless <= most_tokenless) return pause(context);
+            if (++h.tokenless <= max_tokenless) return pause(context);
             return withdraw(context, "the cell acknowledges PREPARE and gives no token",
                             "Tell the integrator of the cell.");
         case start:

@@ -76,10 +76,10 @@ void note_of_job(JournalJob& job, const JournalEvent& event, std::uint32_t boots
             job.job_result = event.job_result;
             break;
         case JournalKind::resumed:
-            job.verdict.reset();
+            job.start_outcome.reset();
             break;
         case JournalKind::closed:
-            job.verdict = event.verdict;
+            job.start_outcome = event.start_outcome;
             break;
         default:
             break;

@@ -28,17 +28,17 @@ struct JournalJob {
     bool is_started = false;
     bool has_ended = false;  // ended or aborted in the cell
     JobResult job_result = JobResult::none;
-    std::optional<StartVerdict> verdict;  // of the last hand-off that came to its end
-    bool is_settled = false;              // it was open when the cell lost its memory: what became of it is UNKNOWN
-    bool is_forgotten = false;            // it is older than the memory of the cell
+    std::optional<StartOutcome> start_outcome;  // of the last hand-off that came to its end
+    bool is_settled = false;    // it was open when the cell lost its memory: what became of it is UNKNOWN
+    bool is_forgotten = false;  // it is older than the memory of the cell
 
     bool may_have_started() const {
-        return is_started || is_settled || verdict == StartVerdict::unknown ||
-               (start_may_have_arrived && verdict != StartVerdict::not_started);
+        return is_started || is_settled || start_outcome == StartOutcome::unknown ||
+               (start_may_have_arrived && start_outcome != StartOutcome::not_started);
     }
     bool is_complete() const { return has_ended && job_result == JobResult::complete; }
     // Its hand-off did not come to an end: the cell is to be asked.
-    bool is_open() const { return !has_ended && !is_settled && verdict != StartVerdict::not_started; }
+    bool is_open() const { return !has_ended && !is_settled && start_outcome != StartOutcome::not_started; }
 };
 
 struct JournalHistory {
@@ -60,7 +60,7 @@ struct JournalHistory {
 // shows it: the last owner goes on too if the cell has not got its RELEASE.
 HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held = 0);
 
-// Why part `part` of `parts` of a piece must not be carved yet, or "": the part before it has not ended complete. Parts
+// Why part `part` of `parts` of a piece must not be milled yet, or "": the part before it has not ended complete. Parts
 // of one piece have the same PROJECT_ID, PIECE_NO and PARTS.
 std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket);
 

@@ -4,10 +4,10 @@
 
 namespace qchopper {
 
-const char* describe(StartVerdict verdict) {
+const char* describe(StartOutcome start_outcome) {
     constexpr const char* texts[] = {"STARTED", "NOT STARTED",
-                                     "UNKNOWN: ask the cell"};  // in the order of StartVerdict
-    return texts[static_cast<std::size_t>(verdict)];
+                                     "UNKNOWN: ask the cell"};  // in the order of StartOutcome
+    return texts[static_cast<std::size_t>(start_outcome)];
 }
 
 }  // namespace qchopper

@@ -13,23 +13,23 @@
 
 namespace qchopper {
 
-enum class StartVerdict { started, not_started, unknown };
+enum class StartOutcome { started, not_started, unknown };
 
 // STARTED, NOT STARTED, UNKNOWN: ask the cell.
-const char* describe(StartVerdict verdict);
+const char* describe(StartOutcome start_outcome);
 
 struct JobOutcome {
-    StartVerdict verdict = StartVerdict::unknown;
+    StartOutcome start_outcome = StartOutcome::unknown;
     JobState job_state = JobState::none;     // the last one read, of this job
-    JobResult job_result = JobResult::none;  // complete: the cell carved the job to its end
+    JobResult job_result = JobResult::none;  // complete: the cell milled the job to its end
     Uuid job_id{};
     std::uint32_t starts = 0;             // STARTS in the cell's RESULT for this job: 0 or 1
     bool starts_known = false;            // that RESULT was read
     AckResult refusal = AckResult::none;  // the result with which the cell refused the job
     bool cancelled = false;               // ended because the caller asked to stop
-    bool carved_before = false;           // not started, because the cell has started a job with this file before
-    bool carved_complete = false;         // and the last of these ended complete
-    bool may_be_carved = false;           // not started, because whether the cell has carved this file is UNKNOWN
+    bool milled_before = false;           // not started, because the cell has started a job with this file before
+    bool milled_complete = false;         // and the last of these ended complete
+    bool may_be_milled = false;           // not started, because whether the cell has milled this file is UNKNOWN
     bool store_is_lost = false;           // CELL_STORE_LOST
     std::uint16_t cell_id = 0;
     bool simulated = false;
@@ -41,8 +41,8 @@ struct JobOutcome {
 
     // Nothing is left to look at: not if the cell lost its memory, whatever became of the job.
     bool is_complete() const {
-        return verdict == StartVerdict::started && job_state == JobState::ended && job_result == JobResult::complete &&
-               !store_is_lost;
+        return start_outcome == StartOutcome::started && job_state == JobState::ended &&
+               job_result == JobResult::complete && !store_is_lost;
     }
 };
 

@@ -61,10 +61,10 @@ bool read(std::string_view text, Enum& value) {
     value = static_cast<Enum>(number);
     return true;
 }
-bool read(std::string_view text, StartVerdict& verdict) {
+bool read(std::string_view text, StartOutcome& start_outcome) {
     std::uint32_t number = 0;
-    if (!read_number(text, number) || number > static_cast<std::uint32_t>(StartVerdict::unknown)) return false;
-    verdict = static_cast<StartVerdict>(number);
+    if (!read_number(text, number) || number > static_cast<std::uint32_t>(StartOutcome::unknown)) return false;
+    start_outcome = static_cast<StartOutcome>(number);
     return true;
 }
 bool read(std::string_view text, Uuid& id) {
@@ -74,8 +74,8 @@ bool read(std::string_view text, Sha256& digest) {
     return read_hex(text, digest.bytes);
 }
 bool read(std::string_view text, std::vector<std::uint16_t>& registers) {
-    constexpr std::size_t most_registers = 125;
-    if (text.size() % 4 != 0 || text.size() > 4 * most_registers) return false;
+    constexpr std::size_t max_registers = 125;
+    if (text.size() % 4 != 0 || text.size() > 4 * max_registers) return false;
     std::vector<std::uint8_t> bytes(text.size() / 2);
     if (!read_hex(text, bytes)) return false;
     registers.clear();
@@ -119,7 +119,7 @@ constexpr FieldRow refusal = field<&JournalEvent::refusal>("refusal");
 constexpr FieldRow state = field<&JournalEvent::job_state>("state");
 constexpr FieldRow result = field<&JournalEvent::job_result>("result");
 constexpr FieldRow starts = field<&JournalEvent::starts>("starts");
-constexpr FieldRow verdict = field<&JournalEvent::verdict>("verdict");
+constexpr FieldRow start_outcome = field<&JournalEvent::start_outcome>("verdict");
 constexpr FieldRow store = store_field<&SeenStore::store_id>("store");
 constexpr FieldRow version = store_field<&SeenStore::version>("version");
 constexpr FieldRow boots = store_field<&SeenStore::boot_count>("boots");
@@ -146,7 +146,7 @@ constexpr std::array<KindRow, journal_kinds> kind_rows{{
     {Is::progress, "PROGRESS", {f::job, f::progress}},
     {Is::refused, "REFUSED", {f::job, f::command, f::refusal}},
     {Is::result, "RESULT", {f::job, f::state, f::result, f::starts}},
-    {Is::closed, "CLOSED", {f::job, f::verdict}},
+    {Is::closed, "CLOSED", {f::job, f::start_outcome}},
     {Is::store_lost, "STORE_LOST", {f::store, f::version, f::boots, f::held, f::total}},
     {Is::store_accepted, "STORE_ACCEPTED", {f::store, f::version, f::boots, f::held, f::total}},
     {Is::granted, "GRANTED", {f::epoch, f::owner, f::grant}},
@@ -235,7 +235,7 @@ std::string describe(const JournalEvent& event) {
             return std::string("the cell reports the job as ") + name(event.job_state) + " (" + name(event.job_result) +
                    "), STARTS " + std::to_string(event.starts);
         case Is::closed:
-            return std::string("the hand-off ended: ") + describe(event.verdict);
+            return std::string("the hand-off ended: ") + describe(event.start_outcome);
         case Is::store_lost:
             return "CELL_STORE_LOST: the cell showed " + of_store(event);
         case Is::store_accepted:

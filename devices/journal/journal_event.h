@@ -70,7 +70,7 @@ struct JournalEvent {
     JobState job_state = JobState::none;
     JobResult job_result = JobResult::none;
     std::uint32_t starts = 0;
-    StartVerdict verdict = StartVerdict::unknown;
+    StartOutcome start_outcome = StartOutcome::unknown;
     SeenStore store;
     bool operator==(const JournalEvent&) const = default;
 };

@@ -110,7 +110,7 @@ bool is_exception(const ModbusRequest& request, std::span<const std::uint8_t> by
 }  // namespace
 
 Bytes frame_of(const ModbusRequest& request) {
-    assert(request.count >= 1 && request.count <= (is_write(request) ? most_written_registers : most_read_registers));
+    assert(request.count >= 1 && request.count <= (is_write(request) ? max_written_registers : max_read_registers));
     assert(is_write(request) ? request.registers.size() == request.count : request.registers.empty());
     Bytes bytes;
     put_u16(bytes, request.transaction);

@@ -17,8 +17,8 @@ namespace qchopper {
 
 enum class ModbusFunction : std::uint8_t { read_holding = 3, read_input = 4, write_holding = 16 };
 
-constexpr std::uint16_t most_read_registers = 125;
-constexpr std::uint16_t most_written_registers = 123;
+constexpr std::uint16_t max_read_registers = 125;
+constexpr std::uint16_t max_written_registers = 123;
 
 struct ModbusRequest {
     std::uint16_t transaction = 0;

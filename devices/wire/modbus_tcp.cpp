@@ -293,17 +293,17 @@ std::string ModbusTcpBus::peer() const {
 }
 
 BusAnswer ModbusTcpBus::read_input(std::uint16_t address, std::uint16_t count) {
-    if (count == 0 || count > most_read_registers) return wrong_count();
+    if (count == 0 || count > max_read_registers) return wrong_count();
     return link_->call({0, 0, ModbusFunction::read_input, address, count});
 }
 
 BusAnswer ModbusTcpBus::read_holding(std::uint16_t address, std::uint16_t count) {
-    if (count == 0 || count > most_read_registers) return wrong_count();
+    if (count == 0 || count > max_read_registers) return wrong_count();
     return link_->call({0, 0, ModbusFunction::read_holding, address, count});
 }
 
 BusAnswer ModbusTcpBus::write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) {
-    if (registers.empty() || registers.size() > most_written_registers) return wrong_count();
+    if (registers.empty() || registers.size() > max_written_registers) return wrong_count();
     const auto count = static_cast<std::uint16_t>(registers.size());
     return link_->call({0, 0, ModbusFunction::write_holding, address, count, registers});
 }

@@ -46,7 +46,7 @@ bool is_inside(const HalfSpace& half_space, const std::array<Vec3, 3>& corners, 
 }
 
 float cast(const SampledScan& scan, const PieceRegion& region, const SurfaceSample& sample, Vec3 direction) {
-    if (dot(sample.normal, direction) < least_facing) return blocked_at_once;
+    if (dot(sample.normal, direction) < min_facing) return blocked_at_once;
     const TriangleMesh& mesh = *scan.solid[region.solid];
     const Vec3 origin = ray_origin(scan, sample);
     std::optional<RayHit> hit = scan.rays.first_hit(region.solid, origin, direction);

@@ -29,7 +29,7 @@ namespace qchopper {
 
 // Below this cosine of the angle between normal and direction a sample is not open: the surface faces away, or is
 // steep.
-constexpr double least_facing = 0.05;
+constexpr double min_facing = 0.05;
 
 // The samples of an uncut scan, and what casts their rays. Shared by all segmentations of the scan.
 struct SampledScan {
@@ -59,7 +59,7 @@ struct PieceAccessibility {
     std::vector<std::uint32_t> scan_triangle;
     std::vector<std::uint32_t> sample;  // on the piece: indices of SampledScan::samples, ascending
     // Per sample of the piece, then per direction: mm from the sample to the first hit with the piece along the
-    // direction, infinite without one; 0 if the sample does not face the direction (least_facing), or if the ray begins
+    // direction, infinite without one; 0 if the sample does not face the direction (min_facing), or if the ray begins
     // inside the material.
     std::vector<float> distance;
 

@@ -38,7 +38,7 @@ void add_bits(std::span<Word> bits, std::span<const Word> others) {
 
 bool is_steep(Vec3 normal, std::span<const Vec3> directions) {
     return std::any_of(directions.begin(), directions.end(),
-                       [&](Vec3 d) { return std::abs(dot(normal, d)) < least_facing; });
+                       [&](Vec3 d) { return std::abs(dot(normal, d)) < min_facing; });
 }
 
 // What directions reach: the rows of the piece as bits, and from the next whole word on its caps. The base's cap is
@@ -103,7 +103,7 @@ class ReachedSets {
     // Like a sample, a cap is not reached by a direction that it is steep to.
     void add_caps(Vec3 direction, std::span<Word> set) const {
         for (std::size_t c = 0; c < piece_.caps.size(); ++c) {
-            const bool faces = dot(piece_.caps[c].outward, direction) >= least_facing;
+            const bool faces = dot(piece_.caps[c].outward, direction) >= min_facing;
             if (faces && !is_base(piece_.caps[c], base_)) set_bit(set, cap_bit(c));
         }
     }
@@ -176,13 +176,13 @@ void exchange(const ReachedSets& sets, std::span<const std::size_t> candidates, 
 
 // Up, then the others ascending. An exchange pass follows every addition, not only the last one: so what fewer
 // directions reach, more reach too.
-std::vector<std::size_t> choose(const ReachedSets& sets, double least_mm2, std::size_t most) {
+std::vector<std::size_t> choose(const ReachedSets& sets, double min_mm2, std::size_t most) {
     std::vector<std::size_t> candidates;
     for (std::size_t d = 1; d < sets.directions().size(); ++d) candidates.push_back(d);
     std::vector<std::size_t> chosen{0};
     while (chosen.size() < most) {
         const Gain next = largest_gain(sets, candidates, sets.united(chosen));
-        if (next.mm2 <= 0 || next.mm2 < least_mm2) break;
+        if (next.mm2 <= 0 || next.mm2 < min_mm2) break;
         chosen.push_back(next.direction);
         exchange(sets, candidates, chosen);
     }
@@ -276,12 +276,12 @@ ChosenDirections choose_directions(const JudgedPiece& piece, const TiltBase& bas
                                    const DirectionOptions& options) {
     assert(options.max_directions >= 1);
     const ReachedSets sets(piece, base, possible);
-    const double least_mm2 = options.least_gain * piece.area_without_base_mm2(base);
+    const double min_mm2 = options.min_gain * piece.area_without_base_mm2(base);
 
     ChosenDirections result;
     std::vector<Vec3> chosen;
     std::vector<Word> by_chosen(sets.words());
-    for (const Gain& g : by_gain(sets, choose(sets, least_mm2, options.max_directions))) {
+    for (const Gain& g : by_gain(sets, choose(sets, min_mm2, options.max_directions))) {
         chosen.push_back(sets.directions()[g.direction]);
         result.chosen.push_back({chosen.back(), g.mm2});
         add_bits(by_chosen, sets.set(g.direction));
@@ -290,14 +290,14 @@ ChosenDirections choose_directions(const JudgedPiece& piece, const TiltBase& bas
     for (std::size_t d = 0; d < sets.directions().size(); ++d) add_bits(by_all, sets.set(d));
 
     const UnreachedRows unreached = unreached_rows(piece, by_chosen, dense);
-    result.samples.assign(sets.rows(), SampleReach::reached);
+    result.samples.assign(sets.rows(), SampleAccess::reached);
     Unreached of_chosen;
     Unreached of_all;
     for (std::size_t i = 0; i < unreached.row.size(); ++i) {
         const std::size_t row = unreached.row[i];
         const Vec3 normal = piece.sample(row).normal;
         const bool is_steep_to_chosen = is_steep(normal, chosen);
-        result.samples[row] = is_steep_to_chosen ? SampleReach::steep : SampleReach::hidden;
+        result.samples[row] = is_steep_to_chosen ? SampleAccess::steep : SampleAccess::hidden;
         of_chosen.add(is_steep_to_chosen);
         if (!has_bit(by_all, row) && !unreached.opens_along_some(i)) of_all.add(is_steep(normal, sets.directions()));
     }
@@ -306,7 +306,7 @@ ChosenDirections choose_directions(const JudgedPiece& piece, const TiltBase& bas
     for (const Vec3& d : dense) sets.add_caps(d, by_all);
     result.by_all = of_all.area(each, sets.caps_left(by_all, sets.directions()));
     const ChosenDirection further = best_further(piece, sets, by_chosen, unreached, dense);
-    if (further.gained_mm2 > 0 && further.gained_mm2 >= least_mm2) result.further = further;
+    if (further.gained_mm2 > 0 && further.gained_mm2 >= min_mm2) result.further = further;
     return result;
 }
 

@@ -67,7 +67,7 @@ void sample_parts(const Piece& parted, CutPieces& made) {
 double unreachable_mm2(const Piece& piece, double tilt_deg) {
     assert(piece.samples);
     const auto axes = oriented_box(piece.mesh->points).axis;
-    return least_unreachable(piece.samples->judged(), axes, tilt_deg).total_mm2;
+    return min_unreachable(piece.samples->judged(), axes, tilt_deg).total_mm2;
 }
 
 }  // namespace qchopper

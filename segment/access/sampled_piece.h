@@ -43,7 +43,7 @@ void sample_uncut(std::span<Piece> uncut, const DistanceStore& store = {}, std::
 // of the uncut solid).
 void sample_parts(const Piece& parted, CutPieces& made);
 
-// What no tool reaches of a piece, from its best base with a largest tilt (least_unreachable in unreachable.h).
+// What no tool reaches of a piece, from its best base with a largest tilt (min_unreachable in unreachable.h).
 // Precondition: it has samples.
 double unreachable_mm2(const Piece& piece, double tilt_deg);
 

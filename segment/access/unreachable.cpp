@@ -68,7 +68,7 @@ std::vector<TiltBase> bases_of(const JudgedPiece& piece) {
     std::vector<TiltBase> bases;
     for (const OwnedCap& cap : piece.caps) {
         const Vec3 up = -cap.outward;
-        if (cap.area_mm2 >= least_base_share * projected_area_mm2(piece, up)) bases.push_back({up, cap.cut});
+        if (cap.area_mm2 >= min_base_share * projected_area_mm2(piece, up)) bases.push_back({up, cap.cut});
     }
     return bases;
 }
@@ -90,7 +90,7 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
             std::any_of(allowed_further.begin(), allowed_further.end(), is_open_further))
             return;
         const Vec3 normal = piece.sample(row).normal;
-        const auto is_steep = [&](Vec3 d) { return std::abs(dot(normal, d)) < least_facing; };
+        const auto is_steep = [&](Vec3 d) { return std::abs(dot(normal, d)) < min_facing; };
         const auto is_steep_to = [&](std::uint32_t k) { return is_steep(directions[k]); };
         if (is_steep(base.up) || std::any_of(allowed.begin(), allowed.end(), is_steep_to))
             ++steep;
@@ -112,8 +112,8 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
     return result;
 }
 
-LeastUnreachable least_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
-                                   std::span<const Vec3> further) {
+MinUnreachable min_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
+                               std::span<const Vec3> further) {
     std::vector<TiltBase> bases = bases_of(piece);
     if (bases.empty()) {
         for (const Vec3& axis : box_axes) {
@@ -121,7 +121,7 @@ LeastUnreachable least_unreachable(const JudgedPiece& piece, const std::array<Ve
             bases.push_back({-axis, std::nullopt});
         }
     }
-    std::optional<LeastUnreachable> best;
+    std::optional<MinUnreachable> best;
     for (const TiltBase& base : bases) {
         const UnreachableArea area = unreachable_area(piece, base, tilt_deg, further);
         const double total = area.total_mm2(tilt_deg);

@@ -41,11 +41,11 @@ bool faces_away(const OwnedCap& cap, Vec3 direction);
 // count.
 constexpr double steep_counts_from_deg = 15;
 // Of the projected area: a smaller cap is no base.
-constexpr double least_base_share = 0.1;
+constexpr double min_base_share = 0.1;
 
 struct UnreachableArea {
     double hidden_mm2 = 0;  // open along no allowed direction, and not steep
-    double steep_mm2 = 0;   // open along none, but within least_facing of a right angle with an allowed one
+    double steep_mm2 = 0;   // open along none, but within min_facing of a right angle with an allowed one
     double caps_mm2 = 0;    // of caps other than the base that face away from all allowed directions
     double total_mm2(double tilt_deg) const {
         return hidden_mm2 + caps_mm2 + (tilt_deg < steep_counts_from_deg ? 0 : steep_mm2);
@@ -65,7 +65,7 @@ struct JudgedPiece {
 // The sum of the areas of the samples that are open along `up` and of the caps that face it, projected on it.
 double projected_area_mm2(const JudgedPiece& piece, Vec3 up);
 
-// The caps that can be bases: area at least least_base_share of the projected area along their inward normal.
+// The caps that can be bases: area at least min_base_share of the projected area along their inward normal.
 std::vector<TiltBase> bases_of(const JudgedPiece& piece);
 
 // Allowed are `up`, the scan's directions within the tilt of it, and of `further` those within the tilt, along which
@@ -74,7 +74,7 @@ std::vector<TiltBase> bases_of(const JudgedPiece& piece);
 UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base, double tilt_deg,
                                  std::span<const Vec3> further = {});
 
-struct LeastUnreachable {
+struct MinUnreachable {
     TiltBase base;
     UnreachableArea unreachable;
     double total_mm2 = 0;              // with or without steep surface, as the tilt wants
@@ -83,7 +83,7 @@ struct LeastUnreachable {
 };
 // The base with the least total; the first of several. A piece without a base: the best of the six directions of
 // `box_axes`, those of its own oriented box, as up.
-LeastUnreachable least_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
-                                   std::span<const Vec3> further = {});
+MinUnreachable min_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
+                               std::span<const Vec3> further = {});
 
 }  // namespace qchopper

@@ -25,7 +25,7 @@ struct CapTriangles {
 // points, which needs none.
 std::vector<Loop> capped(std::vector<Loop> loops);
 
-// `loops` are capped ones, and `regions` are those of nest().
+// `loops` are capped ones, and `regions` are those of nest_polygons().
 CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const Loop> loops,
                                  std::span<const CapRegion> regions);
 

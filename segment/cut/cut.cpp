@@ -109,7 +109,7 @@ std::optional<CappedSection> capped_section(const TriangleMesh& mesh, const Plan
     const std::vector<Loop> kept = capped(loops);
     // Nested in the coordinates of the sweep, to the last bit, so that the cut has the regions that the sweep
     // evaluates.
-    const std::vector<CapRegion> regions = nest(flat_points(points, plane.normal, mesh.points.front()), kept);
+    const std::vector<CapRegion> regions = nest_polygons(flat_points(points, plane.normal, mesh.points.front()), kept);
     result.caps = triangulate_regions(flat, kept, regions);
     return result;
 }

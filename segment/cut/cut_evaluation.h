@@ -37,7 +37,7 @@ struct SolidEvaluation {
 };
 
 // What no tool reaches of the two sides of a plane, in mm2, on samples.
-struct CutReach {
+struct CutAccess {
     double unreachable_mm2 = 0;
     double scan_area_mm2 = 0;  // above 0
 };
@@ -46,7 +46,7 @@ struct CutEvaluation {
     std::vector<SolidEvaluation> solids;  // those above first
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form of the objectives
-    std::optional<CutReach> reach;
+    std::optional<CutAccess> access;
     double seam_mm = 0;                 // length of the section's outline, each point by its cost (Piece::seam_cost)
     double connector = 0;               // connector_sweep.h, in the form of the objectives
     double symmetry_mm = 0;             // symmetry_sweep.h

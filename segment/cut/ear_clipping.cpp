@@ -101,7 +101,7 @@ class EarClipper {
         while (left > 3) {
             // After a round without an ear, the corner that overlaps least.
             const bool is_forced = since_last_ear > left;
-            if (is_forced) at = least_overlap(at, left);
+            if (is_forced) at = min_overlap(at, left);
             if (is_forced || is_ear(at)) {
                 triangles.push_back({ring_[previous_[at]], ring_[at], ring_[next_[at]]});
                 used_.insert(edge_key(ring_[previous_[at]], ring_[next_[at]]));
@@ -143,7 +143,7 @@ class EarClipper {
     }
 
     // The allowed corner that overlaps least: convex or flat ones first, small ones first.
-    std::size_t least_overlap(std::size_t start, std::size_t left) const {
+    std::size_t min_overlap(std::size_t start, std::size_t left) const {
         std::size_t best = start;
         double least = std::numeric_limits<double>::infinity();
         std::size_t at = start;

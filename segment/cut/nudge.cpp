@@ -11,7 +11,7 @@ namespace qchopper {
 namespace {
 
 constexpr double window_share = 1e-7;  // of the extent
-constexpr double least_ulps = 64;
+constexpr double min_ulps = 64;
 constexpr double equal_share = 1e-9;  // of the extent: an offset that is this close to a vertex counts as on it
 
 struct Gap {
@@ -28,7 +28,7 @@ struct Heights {
     std::vector<double> sorted_near;  // heights within the widest window of any wanted offset
     std::vector<double> of_point;     // one per point of the mesh
     Extent range;
-    double least_width = 0;
+    double min_width = 0;
 };
 
 std::vector<Gap> gaps(const Heights& heights, double low, double high) {
@@ -65,13 +65,13 @@ double equal_width(const Heights& heights, double wanted) {
     const double near = equal_share * heights.range.size();
     const auto next = std::lower_bound(heights.sorted_near.begin(), heights.sorted_near.end(), wanted - near);
     const bool is_on_vertex = next != heights.sorted_near.end() && *next <= wanted + near;
-    return std::max(heights.least_width, is_on_vertex ? 2 * near + heights.least_width : near);
+    return std::max(heights.min_width, is_on_vertex ? 2 * near + heights.min_width : near);
 }
 
 Gap best_gap(const Heights& heights, const std::vector<Gap>& all, double wanted) {
     double widest = 0;
     for (const Gap& gap : all) widest = std::max(widest, gap.width());
-    const double least = std::max(widest - equal_width(heights, wanted), std::min(widest, heights.least_width));
+    const double least = std::max(widest - equal_width(heights, wanted), std::min(widest, heights.min_width));
     std::vector<Gap> tied;
     for (const Gap& gap : all) {
         if (gap.width() >= least) tied.push_back(gap);
@@ -87,7 +87,7 @@ Gap best_gap(const Heights& heights, const std::vector<Gap>& all, double wanted)
         const double smaller_by = cap[best] - cap[i];
         const double nearer_by = std::abs(tied[best].middle() - wanted) - std::abs(tied[i].middle() - wanted);
         const bool is_equal = std::abs(smaller_by) <= 1e-12 * scale;
-        if (is_equal ? nearer_by > heights.least_width : smaller_by > 0) best = i;
+        if (is_equal ? nearer_by > heights.min_width : smaller_by > 0) best = i;
     }
     return tied[best];
 }
@@ -110,7 +110,7 @@ std::optional<Nudged> nudge_one(const Heights& heights, double wanted) {
         const std::vector<Gap> all = gaps(heights, low, high);
         if (all.empty()) continue;
         const Gap gap = best_gap(heights, all, wanted);
-        if (gap.width() >= heights.least_width) return Nudged{gap.middle(), factor > 1};
+        if (gap.width() >= heights.min_width) return Nudged{gap.middle(), factor > 1};
     }
     return std::nullopt;
 }
@@ -131,7 +131,7 @@ std::vector<std::optional<Nudged>> nudge(const Piece& piece, Vec3 normal, std::s
     const TriangleMesh& mesh = *piece.mesh;
     Heights heights{piece, normal, {}, {}, extent(mesh, normal), 0};
     const double largest = std::max(std::abs(heights.range.low), std::abs(heights.range.high));
-    heights.least_width = least_ulps * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
+    heights.min_width = min_ulps * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
     std::vector<double> sorted_wanted(wanted.begin(), wanted.end());
     std::sort(sorted_wanted.begin(), sorted_wanted.end());
     const double reach = 10 * window_share * heights.range.size();

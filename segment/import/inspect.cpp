@@ -22,7 +22,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_places = 10;
+constexpr std::size_t max_places = 10;
 constexpr double places_apart = 0.01;  // of the diagonal
 
 // One inspection of one mesh.
@@ -83,7 +83,7 @@ class Inspecting {
         result.is_complete = found.is_complete;
         const double apart = places_apart * norm(result_.box.size());
         for (const auto& pair : found.pairs) {
-            if (result.places.size() == most_places) break;
+            if (result.places.size() == max_places) break;
             const Vec3 place = meeting_place(mesh_, pair);
             const bool is_near = std::any_of(result.places.begin(), result.places.end(),
                                              [&](Vec3 other) { return norm(place - other) < apart; });
@@ -204,7 +204,7 @@ class Inspecting {
         }
         double area = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
-            if (!(lids[s] > most_fill_of_surface * area_[s])) continue;
+            if (!(lids[s] > max_fill_of_surface * area_[s])) continue;
             ++result_.open_components;
             area += area_[s];
         }

@@ -22,8 +22,8 @@ namespace {
 using MarkNames = std::array<std::string_view, 4>;
 constexpr MarkNames ignore_names{"ignore", "mask", "scalar_ignore", "scalar_mask"};
 constexpr MarkNames no_cut_names{"no_cut", "mask", "scalar_no_cut", "scalar_mask"};
-constexpr double least_red = 200;
-constexpr double most_other = 60;
+constexpr double min_red = 200;
+constexpr double max_other = 60;
 
 // How marks are read: by one property, or by three as a colour. Indices of the vertex's properties.
 struct MarkSource {
@@ -31,7 +31,7 @@ struct MarkSource {
     double to_255 = 1;                  // factor of the colours
     bool is_marked(const std::vector<double>& value) const {
         if (value.size() == 1) return value[0] < 0 || value[0] > 0;  // not a number: not marked
-        return to_255 * value[0] >= least_red && to_255 * value[1] <= most_other && to_255 * value[2] <= most_other;
+        return to_255 * value[0] >= min_red && to_255 * value[1] <= max_other && to_255 * value[2] <= max_other;
     }
 };
 

@@ -12,9 +12,9 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_pairs_of_triples = 60;
-constexpr std::size_t most_third_sites = 60;
-constexpr std::size_t most_triples = 200;
+constexpr std::size_t max_pairs_of_triples = 60;
+constexpr std::size_t max_third_sites = 60;
+constexpr std::size_t max_triples = 200;
 
 double distance(Point2 a, Point2 b) {
     const double x = a.x - b.x;
@@ -42,7 +42,7 @@ std::vector<std::size_t> in_order(std::size_t count) {
 }
 
 // Between the axes of two dowels of one joint.
-double least_distance(const DowelSize& a, const DowelSize& b) {
+double min_distance(const DowelSize& a, const DowelSize& b) {
     return std::max(3 * std::max(a.diameter, b.diameter), a.radius() + b.radius() + std::max(a.wall, b.wall));
 }
 
@@ -102,7 +102,7 @@ bool can_be_turned(const DowelPattern& pattern, double tolerance) {
 std::vector<DowelPattern> pairs_of(std::span<const DowelSize> sizes, const SitesOfSizes& sites, std::size_t a,
                                    std::size_t b, double tolerance) {
     const std::vector<DistanceClass> classes =
-        classes_of(sites[a], sites[b], least_distance(sizes[a], sizes[b]), tolerance);
+        classes_of(sites[a], sites[b], min_distance(sizes[a], sizes[b]), tolerance);
     std::vector<DowelPattern> pairs;
     for (std::size_t c = classes.size(); c-- > 0;) {
         const std::size_t proposed = std::min<std::size_t>(classes[c].count, classes[c].pairs.size());
@@ -117,11 +117,11 @@ std::vector<DowelPattern> pairs_of(std::span<const DowelSize> sizes, const Sites
 std::vector<DowelPattern> triples_of(std::span<const DowelSize> sizes, const SitesOfSizes& sites, std::size_t a,
                                      std::size_t c, double tolerance) {
     std::vector<DowelPattern> pairs = pairs_of(sizes, sites, a, a, tolerance);
-    const std::size_t step = std::max<std::size_t>(1, pairs.size() / most_pairs_of_triples);
-    const std::vector<Point2> thirds = some_of(sites[c], most_third_sites);
+    const std::size_t step = std::max<std::size_t>(1, pairs.size() / max_pairs_of_triples);
+    const std::vector<Point2> thirds = some_of(sites[c], max_third_sites);
     std::vector<DowelPattern> triples;
-    const double least = least_distance(sizes[a], sizes[c]);
-    for (std::size_t i = 0; i < pairs.size() && triples.size() < most_triples; i += step) {
+    const double least = min_distance(sizes[a], sizes[c]);
+    for (std::size_t i = 0; i < pairs.size() && triples.size() < max_triples; i += step) {
         for (const Point2& third : thirds) {
             DowelPattern triple = pairs[i];
             if (distance(triple[0].at, third) < least || distance(triple[1].at, third) < least) continue;

@@ -53,7 +53,7 @@ class CapDrill {
         std::vector<bool> is_kept(mesh_.triangles.size());
         for (std::size_t t = 0; t < is_kept.size(); ++t) is_kept[t] = cap_of(mesh_, t) != half_space_.cut;
         keep_triangles(mesh_, is_kept);
-        for (const auto& t : triangulate_regions(points_, loops_, nest(points_, loops_)).triangles) {
+        for (const auto& t : triangulate_regions(points_, loops_, nest_polygons(points_, loops_)).triangles) {
             add(mesh_, {number_[t[0]], number_[t[1]], number_[t[2]]}, half_space_.above, half_space_.cut);
         }
         for (const Tube& tube : tubes_) add_tube(tube);

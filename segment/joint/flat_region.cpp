@@ -204,13 +204,13 @@ FlatPolygons cap_polygons(const Piece& piece, const HalfSpace& half_space) {
     return flat;
 }
 
-FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double least_mm2) {
+FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double min_mm2) {
     FlatRegion region;
     region.points = flattened_points(flat, plane);
     region.loops = outlines(flat);
-    for (CapRegion& part : nest(region.points, region.loops)) {
+    for (CapRegion& part : nest_polygons(region.points, region.loops)) {
         const double area = area_of(region, part);
-        if (area < least_mm2) continue;
+        if (area < min_mm2) continue;
         region.area_mm2 += area;
         region.regions.push_back(std::move(part));
     }
@@ -218,7 +218,7 @@ FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double least_
 }
 
 FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const Piece& above, const HalfSpace& of_above,
-                          double least_mm2) {
+                          double min_mm2) {
     assert(of_below.cut == of_above.cut && !of_below.above && of_above.above);
     FlatPolygons flat = cap_polygons(below, of_below);
     const FlatPolygons other = cap_polygons(above, of_above);
@@ -226,7 +226,7 @@ FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const P
     const auto later = std::find(above.half_spaces.begin(), above.half_spaces.end(), of_above);
     for (auto half_space = later + 1; half_space < above.half_spaces.end(); ++half_space) clip(flat, *half_space);
     keep_touching(flat, of_below.plane, other);
-    return region_of(flat, of_below.plane, least_mm2);
+    return region_of(flat, of_below.plane, min_mm2);
 }
 
 }  // namespace qchopper

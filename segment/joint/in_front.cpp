@@ -13,8 +13,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_mm2 = 1e-6;
-constexpr double least_mm = 1e-6;
+constexpr double min_mm2 = 1e-6;
+constexpr double min_mm = 1e-6;
 
 TriangleMesh turned(std::span<const TriangleMesh* const> meshes, Vec3 direction) {
     const PlaneFrame frame = frame_across(direction);
@@ -73,14 +73,14 @@ double height_at(const std::array<Vec3, 3>& corners, Point2 p) {
 
 void compare(const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second, InFront& found) {
     const Polygon clipping = outline_of(second);
-    if (area_of(clipping) < least_mm2) return;
+    if (area_of(clipping) < min_mm2) return;
     Polygon common = outline_of(first);
     for (std::size_t i = 0; i < 3 && !common.empty(); ++i) common = left_of(common, clipping[i], clipping[(i + 1) % 3]);
-    if (common.size() < 3 || area_of(common) < least_mm2) return;
+    if (common.size() < 3 || area_of(common) < min_mm2) return;
     const Point2 middle = middle_of(common);
     const double difference = height_at(first, middle) - height_at(second, middle);
-    if (difference > least_mm) found.first = true;
-    if (difference < -least_mm) found.second = true;
+    if (difference > min_mm) found.first = true;
+    if (difference < -min_mm) found.second = true;
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ InFront in_front(const TurnedSolid& first, const TurnedSolid& second) {
     InFront found;
     for (std::size_t t = 0; t < first.mesh().triangles.size() && !(found.first && found.second); ++t) {
         const std::array<Vec3, 3> corners = corners_of(first.mesh(), t);
-        if (area_of(outline_of(corners)) < least_mm2) continue;
+        if (area_of(outline_of(corners)) < min_mm2) continue;
         FloatBox column = second.tree().box_of(corners);
         column.min[2] = -std::numeric_limits<float>::infinity();
         column.max[2] = std::numeric_limits<float>::infinity();

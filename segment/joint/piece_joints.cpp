@@ -170,7 +170,7 @@ std::vector<SitesOfSizes> all_sites(std::span<const Piece> pieces, const std::ve
 
 }  // namespace
 
-std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double least_mm2) {
+std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double min_mm2) {
     struct BoundedPiece {
         HalfSpace half_space;
         std::size_t piece = 0;
@@ -194,7 +194,7 @@ std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double least_
     parallel_for(0, pairs.size(), [&](std::size_t i) {
         const auto& [below, above] = pairs[i];
         FlatRegion contact =
-            contact_region(pieces[below.piece], below.half_space, pieces[above.piece], above.half_space, least_mm2);
+            contact_region(pieces[below.piece], below.half_space, pieces[above.piece], above.half_space, min_mm2);
         if (contact.empty()) return;
         found[i] =
             PieceJoint{below.half_space.cut, below.half_space.plane, below.piece, above.piece, std::move(contact), {},
@@ -211,7 +211,7 @@ std::vector<PieceJoint> piece_joints(std::span<const Piece> pieces, const JointS
                                      const Context& context) {
     JointSettings settings = given;
     settings.sizes = largest_first(given.sizes);
-    std::vector<PieceJoint> joints = contacts_of(pieces, settings.least_mm2);
+    std::vector<PieceJoint> joints = contacts_of(pieces, settings.min_mm2);
     context.progress("joints searched for dowels", 0, joints.size());
     const std::vector<SitesOfSizes> sites = all_sites(pieces, joints, settings, context);
     std::vector<std::size_t> order(joints.size());

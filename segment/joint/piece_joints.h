@@ -1,7 +1,7 @@
 // The joints of a segmentation: which pieces touch along which cut, and the dowels that hold them together.
 //
 // mm. A joint is two final pieces and the plane along which they touch: all contact regions together, each at least
-// `least_mm2`. Its dowels are clear in both pieces (dowel_sites.h) and of the pieces' other holes; a pattern of two or
+// `min_mm2`. Its dowels are clear in both pieces (dowel_sites.h) and of the pieces' other holes; a pattern of two or
 // more cannot be turned, and no two joints have patterns alike (dowel_pattern.h) unless the joint says so. Two equal
 // dowels alone never appear (tests/segment/joint/piece_joints_test.cpp).
 
@@ -22,7 +22,7 @@ namespace qchopper {
 struct JointSettings {
     std::vector<DowelSize> sizes = default_dowels();
     double play = default_dowel_play;
-    double least_mm2 = 400;    // of a contact region
+    double min_mm2 = 400;      // of a contact region
     std::size_t sites = 1500;  // about so many points of a contact are tried, up to 16 times as many in thin walls
 };
 
@@ -45,7 +45,7 @@ struct PieceJoint {
 };
 
 // Without dowels; in the order of the cuts, then of the pieces below and above. O(cap triangles of all pairs).
-std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double least_mm2);
+std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double min_mm2);
 
 // With dowels. Sites are searched on several threads; the result does not depend on their number. Joints with little
 // room choose first. Reports progress in joints. Throws Cancelled.

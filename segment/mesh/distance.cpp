@@ -187,12 +187,12 @@ std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const TriangleHa
 }
 
 // A part that is bounded by it need not be split.
-double enough_for(const Farthest& result, const DistanceOptions& options) {
+double enough_for(const OneSidedDistance& result, const DistanceOptions& options) {
     return result.mm + std::max(options.tolerance * result.mm, options.tolerance_mm);
 }
 
 // Updates the largest distance found, and drops the parts that need not be split; at_most then bounds those.
-void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOptions& options) {
+void settle(OneSidedDistance& result, std::vector<TrianglePart>& open, const DistanceOptions& options) {
     for (const TrianglePart& part : open) {
         if (part.found <= result.mm) continue;
         result.mm = part.found;
@@ -208,9 +208,9 @@ void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOpt
 
 }  // namespace
 
-Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> triangles, const TriangleMesh& to,
-                  const DistanceOptions& options, const Context& context) {
-    Farthest result;
+OneSidedDistance one_sided_distance(const TriangleMesh& from, std::span<const std::uint32_t> triangles,
+                                    const TriangleMesh& to, const DistanceOptions& options, const Context& context) {
+    OneSidedDistance result;
     result.triangles = triangles.size();
     if (triangles.empty()) return result;
     if (to.triangles.empty()) {
@@ -234,7 +234,7 @@ Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> trian
     }
     settle(result, open, options);
     std::size_t points = 3 * triangles.size();
-    while (!open.empty() && points < options.most_points) {
+    while (!open.empty() && points < options.max_points) {
         std::vector<TrianglePart> smaller;
         smaller.reserve(4 * open.size());
         for (const TrianglePart& part : open) {
@@ -260,8 +260,8 @@ Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const 
         made = missing_in(result, in_result, scan, in_scan);
     }
     Deviation found;
-    found.from_scan = farthest(scan, gone, result, options, context);
-    found.from_result = farthest(result, made, scan, options, context);
+    found.from_scan = one_sided_distance(scan, gone, result, options, context);
+    found.from_result = one_sided_distance(result, made, scan, options, context);
     return found;
 }
 

@@ -20,10 +20,10 @@ struct DistanceOptions {
     // The search ends when at_most - mm is at most the larger of these two.
     double tolerance = 0.01;  // share of mm
     double tolerance_mm = 1e-4;
-    std::size_t most_points = 6'000'000;  // or when so many points are evaluated; at_most is a bound then as well
+    std::size_t max_points = 6'000'000;  // or when so many points are evaluated; at_most is a bound then as well
 };
 
-struct Farthest {
+struct OneSidedDistance {
     double mm = 0;
     double at_most = 0;
     Vec3 at;                    // the point that far from the other surface
@@ -32,14 +32,15 @@ struct Farthest {
 
 // From these triangles of `from` to the surface of `to`: 0 without triangles in the list, infinite without triangles in
 // `to`.
-Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> triangles, const TriangleMesh& to,
-                  const DistanceOptions& options = {}, const Context& context = {});
+OneSidedDistance one_sided_distance(const TriangleMesh& from, std::span<const std::uint32_t> triangles,
+                                    const TriangleMesh& to, const DistanceOptions& options = {},
+                                    const Context& context = {});
 
 // Triangles that both meshes have, by the coordinates of their corners in any order, have not changed and are left out.
 struct Deviation {
-    Farthest from_scan;    // from triangles of the scan that the result does not have
-    Farthest from_result;  // from triangles of the result that the scan does not have
-    const Farthest& largest() const { return from_scan.mm >= from_result.mm ? from_scan : from_result; }
+    OneSidedDistance from_scan;    // from triangles of the scan that the result does not have
+    OneSidedDistance from_result;  // from triangles of the result that the scan does not have
+    const OneSidedDistance& largest() const { return from_scan.mm >= from_result.mm ? from_scan : from_result; }
 };
 
 // Both meshes are in the same frame.

@@ -154,7 +154,7 @@ std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> point
 
 }  // namespace
 
-std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops) {
+std::vector<CapRegion> nest_polygons(std::span<const Point2> points, std::span<const Loop> loops) {
     const std::size_t count = loops.size();
     std::vector<double> area(count);
     for (std::size_t i = 0; i < count; ++i) area[i] = signed_area(points, loops[i]);

@@ -23,6 +23,6 @@ struct CapRegion {
 // By the even-odd rule: a loop inside an odd number of others is a hole of the smallest outer loop around it. Every
 // loop is in exactly one region. Loops may touch. Precondition: every loop has three points or more. O(L^2 + L N) for L
 // loops of N points in all while few edges lie in one row.
-std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops);
+std::vector<CapRegion> nest_polygons(std::span<const Point2> points, std::span<const Loop> loops);
 
 }  // namespace qchopper

@@ -235,12 +235,12 @@ void RayScene::place(std::span<const Vec3> shifts) {
 }
 
 void RayScene::distances(Vec3 origin, std::span<const Vec3> directions, double far, std::span<float> result) const {
-    assert(directions.size() == result.size() && directions.size() <= most_rays);
+    assert(directions.size() == result.size() && directions.size() <= max_rays);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     const Vec3 from = origin - trees_->centre;
     alignas(32) RTCRayHit8 rays{};
-    alignas(32) std::array<int, most_rays> is_valid{};
+    alignas(32) std::array<int, max_rays> is_valid{};
     for (std::size_t i = 0; i < directions.size(); ++i) {
         is_valid[i] = -1;
         rays.ray.org_x[i] = static_cast<float>(from.x);

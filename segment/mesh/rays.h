@@ -46,7 +46,7 @@ class RayTree {
 // distances() may be called from many threads at once, place() from one.
 class RayScene {
  public:
-    static constexpr std::size_t most_rays = 8;
+    static constexpr std::size_t max_rays = 8;
 
     // A tree per mesh, none moved. Meshes may be empty; they are not used afterwards.
     explicit RayScene(std::span<const TriangleMesh* const> meshes);
@@ -57,7 +57,7 @@ class RayScene {
     // One shift (mm) per mesh.
     void place(std::span<const Vec3> shifts);
     // Per unit direction the distance from the origin to the first surface, or `far` where none is nearer. Both spans
-    // have the same size, at most most_rays.
+    // have the same size, at most max_rays.
     void distances(Vec3 origin, std::span<const Vec3> directions, double far, std::span<float> result) const;
 
  private:

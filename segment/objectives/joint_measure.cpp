@@ -10,7 +10,7 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_diameters_apart = 3;
+constexpr double min_diameters_apart = 3;
 constexpr double tolerated_ratio = 10;  // T_C
 constexpr double largest_ratio = 100;
 
@@ -96,7 +96,7 @@ double connector_of(std::span<const JointMeasure> joints, const ConnectorOptions
         }
         const double s = farthest_two(joint.places);
         value += joint.area_mm2 *
-                 (s < least_diameters_apart * options.diameter ? 1 : std::max(0.0, 1 - 2 * s / joint.diameter));
+                 (s < min_diameters_apart * options.diameter ? 1 : std::max(0.0, 1 - 2 * s / joint.diameter));
         area += joint.area_mm2;
     }
     if (options.form == ConnectorForm::ratio) return std::min(value, largest_ratio);

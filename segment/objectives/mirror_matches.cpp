@@ -16,13 +16,13 @@ namespace {
 constexpr std::size_t per_leaf = 8;
 
 // The triangles of solids whose area is too small. Empty: none.
-std::vector<bool> small_solids(const TriangleMesh& scan, double least_share) {
+std::vector<bool> small_solids(const TriangleMesh& scan, double min_share) {
     const Shells found = shells(scan);
     if (found.count() < 2) return {};
     const std::vector<std::uint32_t> solid = solid_of_triangle(found, solids(scan, found, {0, 0, 1}));
     std::vector<double> area(*std::max_element(solid.begin(), solid.end()) + 1);
     for (std::size_t t = 0; t < solid.size(); ++t) area[solid[t]] += norm(area_vector(scan, t));
-    const double least = least_share * *std::max_element(area.begin(), area.end());
+    const double least = min_share * *std::max_element(area.begin(), area.end());
     std::vector<bool> is_small(solid.size());
     for (std::size_t t = 0; t < solid.size(); ++t) is_small[t] = area[solid[t]] < least;
     return is_small;
@@ -30,8 +30,8 @@ std::vector<bool> small_solids(const TriangleMesh& scan, double least_share) {
 
 }  // namespace
 
-SurfaceSamples symmetry_samples(const TriangleMesh& scan, std::size_t points, double least_solid_area) {
-    const SampledSurface surface{&scan, small_solids(scan, least_solid_area)};
+SurfaceSamples symmetry_samples(const TriangleMesh& scan, std::size_t points, double min_solid_area) {
+    const SampledSurface surface{&scan, small_solids(scan, min_solid_area)};
     return surface_samples({&surface, 1}, points);
 }
 

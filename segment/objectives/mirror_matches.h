@@ -65,7 +65,7 @@ class MirrorMatches {
 
 // The points that stand for the surface of a scan: spread evenly over the solids that have at least that share of the
 // largest one's area.
-SurfaceSamples symmetry_samples(const TriangleMesh& scan, std::size_t points, double least_solid_area);
+SurfaceSamples symmetry_samples(const TriangleMesh& scan, std::size_t points, double min_solid_area);
 
 constexpr double scored_share = 0.9;  // of the distances
 

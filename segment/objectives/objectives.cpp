@@ -97,10 +97,10 @@ std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const Piec
     result.fragility = evaluation.fragility;
     result.piece_count = static_cast<double>(made) - 2;
     result.undercut = undercut_sum / static_cast<double>(pieces.size());
-    if (evaluation.reach) {
-        double unreachable = evaluation.reach->unreachable_mm2;
+    if (evaluation.access) {
+        double unreachable = evaluation.access->unreachable_mm2;
         for (const PieceShare& other : others) unreachable += other.unreachable_mm2;
-        result.unreachable = unreachable / evaluation.reach->scan_area_mm2;
+        result.unreachable = unreachable / evaluation.access->scan_area_mm2;
     }
     result.structure = evaluation.structure;
     add_terms_of_chopper(result, evaluation, std::span(pieces).last(made), others, objectives, scan);

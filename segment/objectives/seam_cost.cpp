@@ -92,7 +92,7 @@ void find_seam_costs(std::span<Piece> uncut, const Context& context, std::size_t
                 int above = 0;
                 int open = 0;
                 for (const Vec3 d : directions) {
-                    if (dot(normals[v], d) < least_facing) continue;
+                    if (dot(normals[v], d) < min_facing) continue;
                     ++above;
                     open += rays.first_hit(m, mesh.points[v] + start * normals[v], d) ? 0 : 1;
                 }

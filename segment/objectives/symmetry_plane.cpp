@@ -32,7 +32,7 @@ struct Lever {
 using Matrix = std::array<Vec3, 3>;  // symmetric, by rows
 
 // Jacobi's rotations, each of which makes one pair of elements beside the diagonal zero.
-Vec3 least_eigenvector(Matrix m) {
+Vec3 min_eigenvector(Matrix m) {
     constexpr int sweeps = 12;  // their size falls as the square from one to the next
     Matrix vectors{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -74,7 +74,7 @@ Plane fitted(const std::vector<MirrorMatch>& matches) {
             for (int j = 0; j < 3; ++j) products[i][j] += 0.5 * (p[i] * q[j] + p[j] * q[i]);
         }
     }
-    const Vec3 n = least_eigenvector(products);
+    const Vec3 n = min_eigenvector(products);
     return canonical({n, dot(n, centre)});
 }
 
@@ -118,9 +118,9 @@ std::array<Scored, 6> around(const Plane& plane, Vec3 centre, double step_rad, d
 // search" solution of numerical and statistical problems, 1961). What is found has the least score, which the fit
 // of squares has not where much of one side has no match.
 Scored descended(const MirrorMatches& mirror, const Lever& lever, Scored best, const Matching& how, double step_rad,
-                 double least_rad) {
+                 double min_rad) {
     best.score = mirror.score(best.plane, how);
-    while (step_rad >= least_rad) {
+    while (step_rad >= min_rad) {
         std::array<Scored, 6> tried = around(best.plane, lever.centre, step_rad, step_rad * lever.arm);
         parallel_for(0, tried.size(), [&](std::size_t i) { tried[i].score = mirror.score(tried[i].plane, how); });
         const auto least = std::min_element(tried.begin(), tried.end(),
@@ -165,7 +165,7 @@ Plane reflected(const Plane& plane, const Plane& mirror) {
 }
 
 std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const SymmetryOptions& options) {
-    const SurfaceSamples samples = symmetry_samples(scan, options.points, options.least_solid_area);
+    const SurfaceSamples samples = symmetry_samples(scan, options.points, options.min_solid_area);
     std::vector<Vec3> points;
     for (const SurfaceSample& sample : samples.sample) points.push_back(sample.point);
     if (points.size() < 4) return std::nullopt;

@@ -26,15 +26,15 @@ struct SymmetryPlane {
 
     double ratio() const { return spacing_mm > 0 ? score_mm / spacing_mm : 0; }
     // Up to about 0.5 a surface is symmetric: skulls have 0.39 to 0.47, other scans 0.6 and more.
-    bool is_symmetric() const { return ratio() <= most_ratio; }
-    static constexpr double most_ratio = 0.5;
+    bool is_symmetric() const { return ratio() <= max_ratio; }
+    static constexpr double max_ratio = 0.5;
 };
 
 struct SymmetryOptions {
-    std::size_t points = 10'000;     // on the surface
-    std::size_t directions = 500;    // of the half sphere
-    std::size_t refined = 8;         // so many of the best are refined
-    double least_solid_area = 0.01;  // a solid with less than this share of the largest one's area has no points
+    std::size_t points = 10'000;   // on the surface
+    std::size_t directions = 500;  // of the half sphere
+    std::size_t refined = 8;       // so many of the best are refined
+    double min_solid_area = 0.01;  // a solid with less than this share of the largest one's area has no points
 };
 
 // Of the surface of a scan. Nothing if there is no area. Some hundredths of a second for the points of 1.9 million

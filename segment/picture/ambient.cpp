@@ -50,8 +50,8 @@ double sky_light(const Scene& scene, const SurfacePoint& point, Vec3 up, int ray
         const double under = dot(direction, point.face_normal);
         directions[i] = under < 0 ? direction - 2 * under * point.face_normal : direction;
     }
-    for (int i = 0; i < rays; i += RayScene::most_rays) {
-        const auto n = static_cast<std::size_t>(std::min<int>(rays - i, RayScene::most_rays));
+    for (int i = 0; i < rays; i += RayScene::max_rays) {
+        const auto n = static_cast<std::size_t>(std::min<int>(rays - i, RayScene::max_rays));
         scene.distances(point, std::span(directions).subspan(i, n), far, std::span(distance).subspan(i, n));
     }
     double light = 0;

@@ -51,14 +51,14 @@ std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOp
     const double wanted = options.gap * norm(whole.size());
     std::vector<Vec3> from_centre;
     for (const Piece& piece : pieces) from_centre.push_back(surface_centroid(*piece.mesh) - whole.centre());
-    double factor = options.least_factor;
+    double factor = options.min_factor;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const double distance = separation(pieces[i], pieces[k], from_centre[k] - from_centre[i]);
             if (distance > 0) factor = std::max(factor, wanted / distance);
         }
     }
-    factor = std::min(factor, options.most_factor);
+    factor = std::min(factor, options.max_factor);
     std::vector<Vec3> shifts;
     shifts.reserve(from_centre.size());
     for (const Vec3& out : from_centre) shifts.push_back(factor * out);

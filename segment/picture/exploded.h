@@ -14,9 +14,9 @@
 namespace qchopper {
 
 struct ExplodeOptions {
-    double gap = 0.08;           // wanted between neighbours, as a share of the diagonal of the whole
-    double least_factor = 0.25;  // a piece moves outwards by its distance from the common centre times the factor
-    double most_factor = 0.9;    // limits the factor where a small fragment beside a cut would ask for more
+    double gap = 0.08;         // wanted between neighbours, as a share of the diagonal of the whole
+    double min_factor = 0.25;  // a piece moves outwards by its distance from the common centre times the factor
+    double max_factor = 0.9;   // limits the factor where a small fragment beside a cut would ask for more
 };
 
 // One shift per piece, all by the same factor, away from the common centre. Precondition: no mesh is null.

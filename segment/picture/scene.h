@@ -46,7 +46,7 @@ class Scene {
     // The surface at a point of a triangle, seen along the unit vector `forward`.
     SurfacePoint surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const;
     // Distances along unit directions from just above the surface to the next one; `far` where none is nearer. Sizes
-    // are equal, at most RayScene::most_rays. Precondition: has_rays().
+    // are equal, at most RayScene::max_rays. Precondition: has_rays().
     void distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
                    std::span<float> result) const;
     bool has_rays() const { return rays_.has_value(); }

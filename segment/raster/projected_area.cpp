@@ -14,7 +14,7 @@
 namespace qchopper {
 namespace {
 
-// The cells of a rectangle whose middles lie in some triangle.
+// The cells of a rectangle whose centres lie in some triangle.
 class OccupancyGrid {
  public:
     OccupancyGrid(Point2 min, Point2 size)

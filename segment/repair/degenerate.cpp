@@ -16,7 +16,7 @@ namespace qchopper {
 namespace {
 
 constexpr double rounding = 1e-15;
-constexpr int most_rounds = 64;  // of a row of such triangles each round removes those at its ends
+constexpr int max_rounds = 64;  // of a row of such triangles each round removes those at its ends
 
 std::uint32_t next(std::uint32_t h) {
     return h % 3 == 2 ? h - 2 : h + 1;
@@ -38,7 +38,7 @@ class Removal {
         : mesh_(mesh), sources_(sources), twin_(edges(mesh).twin), is_kept_(mesh.triangles.size(), true) {}
 
     Degenerate run(std::vector<std::uint32_t> flat) {
-        for (int round = 0; round < most_rounds && !flat.empty(); ++round) {
+        for (int round = 0; round < max_rounds && !flat.empty(); ++round) {
             std::vector<std::uint32_t> again;
             bool is_any = false;
             for (const std::uint32_t t : flat) {

@@ -27,7 +27,7 @@ OpenComponents drop_open_components(TriangleMesh& mesh, SourceFaces& sources, do
     std::vector<bool> is_open_component(found.count());
     double in_open_components = 0;
     for (std::size_t s = found.count(); s-- > 0;) {
-        is_open_component[s] = added[s] > most_fill_of_surface * scanned[s];
+        is_open_component[s] = added[s] > max_fill_of_surface * scanned[s];
         if (!is_open_component[s]) continue;
         ++result.left;
         result.first = found.box[s].centre();

@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-constexpr double most_fill_of_surface = 0.8;   // of a shell's scanned area: with more it is an open component
+constexpr double max_fill_of_surface = 0.8;    // of a shell's scanned area: with more it is an open component
 constexpr double open_component_share = 0.01;  // of the scanned area: open components of so much are dropped
 
 struct OpenComponents {

@@ -17,7 +17,7 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_left = 1e-9;  // of the volume of all shells: less is rounding
+constexpr double min_left = 1e-9;  // of the volume of all shells: less is rounding
 
 // Shells that are turned together. The shells around a group are those around its largest one.
 struct ShellGroups {
@@ -86,7 +86,7 @@ bool is_much_left(const Shells& found, const std::vector<bool>& is_turned) {
         sum += is_turned[s] ? -found.volume[s] : found.volume[s];
         all += std::abs(found.volume[s]);
     }
-    return sum > least_left * all;
+    return sum > min_left * all;
 }
 
 Outward turned(TriangleMesh& mesh, bool turn, bool by_groups) {

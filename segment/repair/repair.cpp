@@ -19,7 +19,7 @@
 namespace qchopper {
 namespace {
 
-constexpr int most_resolvings = 4;
+constexpr int max_resolvings = 4;
 
 void check(const RepairOptions& o) {
     const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
@@ -77,7 +77,7 @@ class Repairing {
 
     void resolve() {
         if (!options_.resolve_self_intersections || mesh_.triangles.empty() || report_.open_components_left > 0) return;
-        for (int round = 0; round < most_resolvings; ++round) {
+        for (int round = 0; round < max_resolvings; ++round) {
             progress_.begin("self-intersections resolved");
             const bool was_closed = is_closed();
             const RepairState kept = state_;

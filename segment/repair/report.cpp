@@ -61,7 +61,7 @@ std::string smoothing(const RepairReport& r) {
     if (!r.pen_grooves) return "not asked for";
     if (r.pen_grooves->count == 0) return "no pen grooves found";
     return counted(r.pen_grooves->count, "pen groove") + " lifted, " + in_digits(r.pen_grooves->area_mm2) +
-           " mm2, at most " + in_digits(r.pen_grooves->most_depth) + " mm deep";
+           " mm2, at most " + in_digits(r.pen_grooves->max_depth) + " mm deep";
 }
 
 std::string wrapping(const RepairReport& r) {
@@ -114,7 +114,7 @@ void add_warnings_of_options(const RepairReport& r, Sentences& sentences) {
     }
     if (r.pen_grooves) {
         sentences.add(r.pen_grooves->count, "pen groove was", "pen grooves were",
-                      " lifted by up to " + in_digits(r.pen_grooves->most_depth) + " mm.");
+                      " lifted by up to " + in_digits(r.pen_grooves->max_depth) + " mm.");
         if (r.pen_grooves->is_too_coarse) {
             sentences.all.emplace_back("The faces are too large to show a marker's line: no pen groove was searched.");
         }

@@ -22,9 +22,9 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_triangles_of_region = 20'000;
-constexpr std::size_t most_edges_of_loop = 400;
-constexpr std::size_t most_places_listed = 10;
+constexpr std::size_t max_triangles_of_region = 20'000;
+constexpr std::size_t max_edges_of_loop = 400;
+constexpr std::size_t max_places_listed = 10;
 
 std::size_t count_of(const SelfIntersections& found) {
     return found.pairs.size() + found.without_area.size();
@@ -80,7 +80,7 @@ class ResolvePass {
  public:
     ResolvePass(const TriangleMesh& mesh, const ResolveOptions& options)
         : mesh_(mesh), options_(options), incidence_(mesh), tree_(mesh), is_kept_(mesh.triangles.size(), true) {
-        most_extent_ = options.most_extent * norm(bounds(mesh).size());
+        max_extent_ = options.max_extent * norm(bounds(mesh).size());
     }
 
     // Returns whether the place is repaired.
@@ -90,7 +90,7 @@ class ResolvePass {
             if (round > 0) region.grow();
             region.tidy();
             const Box box = box_of(region);
-            if (region.triangles().size() > most_triangles_of_region || norm(box.size()) > most_extent_) return false;
+            if (region.triangles().size() > max_triangles_of_region || norm(box.size()) > max_extent_) return false;
             if (std::any_of(repaired_.begin(), repaired_.end(), [&](const Box& b) { return do_meet(b, box); }))
                 return false;
             const std::optional<std::vector<Triangle>> filling = filling_of(region);
@@ -130,7 +130,7 @@ class ResolvePass {
         if (!loops) return std::nullopt;
         std::vector<Triangle> filling;
         for (const auto& [loop] : *loops) {
-            if (loop.size() > most_edges_of_loop) return std::nullopt;
+            if (loop.size() > max_edges_of_loop) return std::nullopt;
             std::vector<Vec3> points;
             std::vector<Vec3> beyond;
             for (const std::uint32_t h : loop) {
@@ -202,7 +202,7 @@ class ResolvePass {
     const MeshIncidence incidence_;
     const TriangleTree tree_;
     std::vector<bool> is_kept_;
-    double most_extent_ = 0;
+    double max_extent_ = 0;
     std::vector<Box> repaired_;  // around the repaired places
     std::vector<Triangle> added_;
 };
@@ -231,7 +231,7 @@ std::size_t drop_unused(TriangleMesh& mesh, const std::vector<bool>& was_used) {
 std::vector<Vec3> some_places(const TriangleMesh& mesh, const SelfIntersections& found) {
     std::vector<Vec3> some;
     for (const IntersectionPlace& place : places_of(mesh, found)) {
-        if (some.size() == most_places_listed) break;
+        if (some.size() == max_places_listed) break;
         const std::uint32_t first = place.triangles.front();
         const auto pair = std::find_if(found.pairs.begin(), found.pairs.end(),
                                        [&](const auto& p) { return p[0] == first || p[1] == first; });
@@ -246,7 +246,7 @@ Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& op
                                     SourceFaces* sources) {
     assert(mesh.cap_of.empty());
     Resolved result;
-    const SelfIntersectionOptions limits{options.most_pairs};
+    const SelfIntersectionOptions limits{options.max_pairs};
     SelfIntersections found = self_intersections(mesh, limits, context);
     result.pairs = result.left = count_of(found);
     if (found.is_free()) return result;

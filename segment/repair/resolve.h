@@ -16,10 +16,10 @@
 namespace qchopper {
 
 struct ResolveOptions {
-    int rounds = 8;                      // sizes of neighbourhood that are tried at a place, each a ring larger
-    double most_extent = 0.1;            // of the box's diagonal: no neighbourhood may be wider
-    std::size_t passes = 3;              // over the whole mesh: places near a repaired one wait for the next pass
-    std::size_t most_pairs = 1'000'000;  // a mesh with more is left as it is
+    int rounds = 8;                     // sizes of neighbourhood that are tried at a place, each a ring larger
+    double max_extent = 0.1;            // of the box's diagonal: no neighbourhood may be wider
+    std::size_t passes = 3;             // over the whole mesh: places near a repaired one wait for the next pass
+    std::size_t max_pairs = 1'000'000;  // a mesh with more is left as it is
 };
 
 struct Resolved {

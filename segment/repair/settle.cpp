@@ -20,7 +20,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_passes = 12;
+constexpr std::size_t max_passes = 12;
 
 class Settling {
  public:
@@ -28,9 +28,9 @@ class Settling {
         : options_(options), progress_(progress), mesh_(state.mesh), sources_(state.sources), report_(state.report) {}
 
     void run() {
-        for (std::size_t pass = 0; pass < most_passes && !mesh_.triangles.empty(); ++pass) {
+        for (std::size_t pass = 0; pass < max_passes && !mesh_.triangles.empty(); ++pass) {
             ++report_.passes;
-            if (!run_steps() || pass + 1 == most_passes) return;  // a weld would join what only touches
+            if (!run_steps() || pass + 1 == max_passes) return;  // a weld would join what only touches
             const std::size_t new_before = count_new(sources_);
             weld(mesh_, &sources_);
             discount_dropped(new_before);

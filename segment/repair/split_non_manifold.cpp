@@ -21,7 +21,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr int most_rounds = 16;  // of separating edges that still have more than two faces; then faces stand alone
+constexpr int max_rounds = 16;  // of separating edges that still have more than two faces; then faces stand alone
 
 // Disjoint sets of triangles; of any two in one set it is known whether their orientations are opposite.
 class TurnSets {
@@ -191,7 +191,7 @@ class Separation {
 
     void copy_points() {
         TriangleMesh result = with_copies();
-        for (int round = 0; !separate(result, round >= most_rounds); ++round) result = with_copies();
+        for (int round = 0; !separate(result, round >= max_rounds); ++round) result = with_copies();
         counts_.copies = result.points.size() - mesh_.points.size();
         mesh_ = std::move(result);
     }

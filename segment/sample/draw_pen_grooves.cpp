@@ -85,10 +85,10 @@ TracedLine trace(const TriangleMesh& mesh, const Edges& edges, std::size_t start
 // Whether the surface along the line is smooth, without a crest or a crease.
 bool is_smooth(const TriangleMesh& mesh, const std::vector<Vec3>& normals, const Edges& edges,
                const TracedLine& traced) {
-    constexpr double least_cosine = 0.9;
+    constexpr double min_cosine = 0.9;
     const auto is_near = [&](std::size_t t, Vec3 normal) {
         for (const std::uint32_t corner : mesh.triangles[t]) {
-            if (dot(normals[corner], normal) < least_cosine) return false;
+            if (dot(normals[corner], normal) < min_cosine) return false;
         }
         return true;
     };
@@ -153,9 +153,9 @@ DrawnPenGrooves draw_pen_grooves(TriangleMesh& mesh, const DrawOptions& options)
     std::vector<double> depths(mesh.points.size(), 0);
     const std::size_t count = mesh.triangles.size();
     const std::vector<Vec3> normals = vertex_normals(mesh);
-    constexpr int most_tries = 300;
+    constexpr int max_tries = 300;
     for (int groove = 0; groove < options.pen_grooves && count > 0; ++groove) {
-        for (int attempt = 0; attempt < most_tries; ++attempt) {
+        for (int attempt = 0; attempt < max_tries; ++attempt) {
             const double place = std::fmod((groove + 0.5) / options.pen_grooves + attempt * std::numbers::phi, 1.0);
             const auto start = std::min(count - 1, static_cast<std::size_t>(place * static_cast<double>(count)));
             const Guide guide = guide_through(mesh, start, groove + 2 * attempt, length);

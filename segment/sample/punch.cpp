@@ -18,12 +18,12 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_candidates = 20000;
+constexpr std::size_t max_candidates = 20000;
 constexpr std::array<double, 4> disc_radius{0.012, 0.02, 0.008, 0.028};  // of the diagonal, used in turn
 
 // Points far from each other: each is the farthest from those before it.
-std::vector<std::uint32_t> spread(const TriangleMesh& mesh, std::size_t count, double& least_distance) {
-    const std::size_t stride = mesh.points.size() / most_candidates + 1;
+std::vector<std::uint32_t> spread(const TriangleMesh& mesh, std::size_t count, double& min_distance) {
+    const std::size_t stride = mesh.points.size() / max_candidates + 1;
     std::vector<double> distance2((mesh.points.size() + stride - 1) / stride, std::numeric_limits<double>::max());
     std::vector<std::uint32_t> chosen;
     std::size_t next = 0;
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> spread(const TriangleMesh& mesh, std::size_t count, d
         next = static_cast<std::size_t>(std::max_element(distance2.begin(), distance2.end()) - distance2.begin());
         if (distance2[next] == 0) break;
     }
-    least_distance = std::sqrt(least2);
+    min_distance = std::sqrt(least2);
     return chosen;
 }
 
@@ -77,7 +77,7 @@ class Punch {
                 const std::uint32_t next = edges_.twin[3 * disc[i] + k] / 3;
                 if (!belongs(next, seed, radius)) continue;
                 if (std::find(disc.begin(), disc.end(), next) == disc.end()) disc.push_back(next);
-                if (disc.size() > most_triangles) return disc;
+                if (disc.size() > max_triangles) return disc;
             }
         }
         return disc;
@@ -122,7 +122,7 @@ class Punch {
         return true;
     }
 
-    static constexpr std::size_t most_triangles = 20000;
+    static constexpr std::size_t max_triangles = 20000;
 
     const TriangleMesh& mesh_;
     Edges edges_;

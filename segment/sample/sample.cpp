@@ -38,19 +38,19 @@ void check(const SampleOptions& options) {
         throw InputError(InputFault::use, "a sample has " + std::to_string(least) + " to " + std::to_string(most) +
                                               " " + what + ", not " + std::to_string(value));
     };
-    check_range(options.faces, fewest_sample_faces, most_sample_faces, "faces");
-    check_range(options.holes, 0, most_sample_holes, "holes");
-    check_range(options.pen_grooves, 0, most_sample_pen_grooves, "pen grooves");
+    check_range(options.faces, fewest_sample_faces, max_sample_faces, "faces");
+    check_range(options.holes, 0, max_sample_holes, "holes");
+    check_range(options.pen_grooves, 0, max_sample_pen_grooves, "pen grooves");
 }
 
 // The spacing that gives a little fewer triangles than `faces`: their number is about proportional to 1 / spacing
 // squared.
 double spacing_for(const Bone& bone, std::size_t faces, std::size_t base_faces, const Context& context) {
     constexpr double aim = 0.99;
-    constexpr int most_tries = 6;
+    constexpr int max_tries = 6;
     const auto wanted = static_cast<double>(faces);
     double spacing = bone.base_spacing * std::sqrt(static_cast<double>(base_faces) / (aim * wanted));
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
         context.progress("lattices tried", static_cast<std::size_t>(i), 0);
         const auto count = static_cast<double>(count_triangles(bone.field, bone.box, spacing, context));
         if (count <= wanted && count >= 0.97 * wanted) break;
@@ -75,7 +75,7 @@ TriangleMesh dense(const Bone& bone, std::size_t faces, std::size_t base_faces, 
 // False if there is no surface of that many faces without an intersection.
 bool make_coarse(TriangleMesh& mesh, std::size_t faces, const Context& context) {
     CollapseLimits limits;
-    limits.most_faces = faces;
+    limits.max_faces = faces;
     return collapse_edges(mesh, {}, limits, context) && mesh.triangles.size() == faces &&
            self_intersections(mesh, {}, context).is_free();
 }

@@ -29,9 +29,9 @@ struct SampleOptions {
 };
 
 constexpr std::size_t fewest_sample_faces = 2000;
-constexpr std::size_t most_sample_faces = 50'000'000;
-constexpr int most_sample_holes = 100;
-constexpr int most_sample_pen_grooves = 100;
+constexpr std::size_t max_sample_faces = 50'000'000;
+constexpr int max_sample_holes = 100;
+constexpr int max_sample_pen_grooves = 100;
 
 // "vertebra", "femur" or "skull"; nothing for any other word.
 std::optional<Specimen> specimen_named(std::string_view name);

@@ -32,7 +32,7 @@ struct PieceEvaluations {
 };
 
 // What is known of one plane of a piece that is ranked by reach, beside the reach itself.
-struct ReachPlane {
+struct AccessPlane {
     Candidate candidate;
     bool is_swept = false;
     std::optional<CutEvaluation> evaluation;  // nothing though it is swept: the plane misses
@@ -40,16 +40,16 @@ struct ReachPlane {
     bool is_really_cut = false;               // its reach is that of the pieces that it really makes
 };
 
-// What is known of the planes of a piece that are ranked by reach (reach_rank.h). Areas in mm2, of both sides.
-struct ReachEvaluations {
-    std::vector<Vec3> normals;                                            // none: not swept yet
-    std::vector<std::vector<double>> offsets;                             // per normal, not nudged
-    std::vector<std::vector<double>> unreachable_mm2;                     // per normal and offset
-    std::map<std::pair<std::size_t, std::size_t>, ReachPlane> evaluated;  // by normal and offset
-    std::vector<ReachPlane> further;                                      // planes along none of the normals
-    std::optional<Plane> refined_from;                                    // the best plane, if it was refined
-    std::optional<ReachPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
-    Objectives objectives;              // with these, and for so many best planes
+// What is known of the planes of a piece that are ranked by reach (access_rank.h). Areas in mm2, of both sides.
+struct AccessEvaluations {
+    std::vector<Vec3> normals;                                             // none: not swept yet
+    std::vector<std::vector<double>> offsets;                              // per normal, not nudged
+    std::vector<std::vector<double>> unreachable_mm2;                      // per normal and offset
+    std::map<std::pair<std::size_t, std::size_t>, AccessPlane> evaluated;  // by normal and offset
+    std::vector<AccessPlane> further;                                      // planes along none of the normals
+    std::optional<Plane> refined_from;                                     // the best plane, if it was refined
+    std::optional<AccessPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
+    Objectives objectives;               // with these, and for so many best planes
     std::size_t best = 0;
     std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
 };
@@ -90,8 +90,8 @@ class EvaluationCache {
 
     // What no tool reaches of a piece that has samples, with a largest tilt of the tool; 0 of one that has none.
     double unreachable_mm2(const Piece& piece, double tilt_deg);
-    // Of a piece that has samples; reach_rank.h fills it.
-    ReachEvaluations& reach(const Piece& piece) { return entry(piece).reach; }
+    // Of a piece that has samples; access_rank.h fills it.
+    AccessEvaluations& access(const Piece& piece) { return entry(piece).access; }
     // late_rank.h fills them.
     LateEvaluations& late(const Piece& piece) { return entry(piece).late; }
     OwnBoxes& own_boxes(const Piece& piece) { return entry(piece).own_boxes; }
@@ -129,7 +129,7 @@ class EvaluationCache {
         std::shared_ptr<const PieceEvaluations> evaluations;
         PieceEvaluations further;
         std::optional<double> unreachable_mm2;
-        ReachEvaluations reach;
+        AccessEvaluations access;
         LateEvaluations late;
         OwnBoxes own_boxes;
     };

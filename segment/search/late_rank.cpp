@@ -243,7 +243,7 @@ std::vector<Ranked> with_own_boxes(std::vector<Ranked> ranked, const Segmentatio
                                    const Objectives& objectives, EvaluationCache& cache, const Context& context) {
     if (!objectives.needs_sizes()) return ranked;
     const Piece& target = segmentation.pieces[piece];
-    const std::size_t count = std::min(ranked.size(), most_own_boxes);
+    const std::size_t count = std::min(ranked.size(), max_own_boxes);
     auto& known = cache.own_boxes(target);
     std::vector<const Ranked*> fresh;
     for (std::size_t i = 0; i < count; ++i) {

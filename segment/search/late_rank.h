@@ -24,7 +24,7 @@ std::vector<Ranked> rank_late(const Segmentation& segmentation, std::size_t piec
                               EvaluationCache& cache, const Context& context, std::size_t best);
 
 // So many of the best candidates are ranked again with the oriented box of each part that they would make.
-constexpr std::size_t most_own_boxes = 16;
+constexpr std::size_t max_own_boxes = 16;
 
 // Puts the first planes of a ranking in the order of their cost with own boxes, where parts, utilization or seam count
 // them: candidates are evaluated along the axes of the piece's box. These planes are really cut. Throws Cancelled.

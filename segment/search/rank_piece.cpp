@@ -6,10 +6,10 @@
 #include <cassert>
 #include <limits>
 
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
+#include "segment/search/access_rank.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
-#include "segment/search/reach_rank.h"
 
 namespace qchopper {
 namespace {
@@ -23,9 +23,9 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
                          EvaluationCache& cache, const Context& context, std::size_t best,
                          const BlocksNeeded& too_large_for) {
     assert(piece < segmentation.pieces.size());
-    if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
-        return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
-                             too_large_for);
+    if (is_ranked_by_access(segmentation.pieces[piece], settings)) {
+        return rank_by_access(segmentation, piece, settings, cache, context, std::max(best, min_best_planes),
+                              too_large_for);
     }
     const Objectives& objectives = settings.objectives;
     const CandidateOptions& options = settings.candidates;
@@ -42,7 +42,7 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
     std::vector<Ranked> ranked;
     if (is_ranked_late(settings)) {
         const std::size_t wanted =
-            std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
+            std::max({best, settings.runners_up + 1, max_own_boxes, children_per_place * settings.beam});
         ranked = rank_late(segmentation, piece, settings, cache, context, wanted);
     } else {
         const Piece* one = &target;
@@ -67,9 +67,9 @@ std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::si
                                        const SearchSettings& settings, EvaluationCache& cache, const Context& context,
                                        int other, const BlocksNeeded& too_large_for) {
     constexpr std::size_t normals = 3;
-    if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
-        return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other,
-                                           too_large_for);
+    if (is_ranked_by_access(segmentation.pieces[piece], settings)) {
+        return rank_whole_normals_by_access(segmentation, piece, settings, cache, context, normals, other,
+                                            too_large_for);
     }
     return rank(segmentation, piece, settings, cache, context, std::numeric_limits<std::size_t>::max());
 }
@@ -78,14 +78,14 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
                                  const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
     const Piece& target = segmentation.pieces[piece];
     PieceEvaluations alone{{plane}, {cache.evaluation_of(target, plane, context)}};
-    if (alone.evaluations.front() && is_ranked_by_reach(target, settings)) {
+    if (alone.evaluations.front() && is_ranked_by_access(target, settings)) {
         const Objectives& objectives = settings.objectives;
         CutEvaluation& evaluation = *alone.evaluations.front();
-        evaluation.reach = cut_reach(target, plane.plane, objectives.tilt_deg);
+        evaluation.access = cut_access(target, plane.plane, objectives.tilt_deg);
         if (evaluation.solids.size() > 2) {
-            evaluation.reach->unreachable_mm2 =
+            evaluation.access->unreachable_mm2 =
                 unreachable_when_cut_mm2(target, plane.plane, objectives.fragment_volume_mm3, objectives.tilt_deg)
-                    .value_or(evaluation.reach->unreachable_mm2);
+                    .value_or(evaluation.access->unreachable_mm2);
         }
     }
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);

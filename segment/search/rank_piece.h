@@ -1,7 +1,7 @@
 // Ranks the planes of one piece of a segmentation: those along its normals (rank.h), or where surface out of reach has
-// a weight the best of them (reach_rank.h), and further ones (further_candidates.h).
+// a weight the best of them (access_rank.h), and further ones (further_candidates.h).
 //
-// Ties and preconditions as in rank.h (tests/segment/search/search_test.cpp, reach_rank_test.cpp beside it).
+// Ties and preconditions as in rank.h (tests/segment/search/search_test.cpp, access_rank_test.cpp beside it).
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace qchopper {
 
 // All candidates of one piece, best first, evaluated if they are not in the cache. Where the normals are set to those
 // of the sphere, the best plane of a normal is refined: a finer offset beside it that costs less stands before it.
-// Throws Cancelled. Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h).
+// Throws Cancelled. Of a piece that is ranked by reach at least max(settings.beam, best) of them (access_rank.h).
 // `too_large_for`: of a piece that is cut for size, StopJudge::too_large_for(); of no effect where surface out of reach
 // has no weight.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,

@@ -1,4 +1,4 @@
-// A pattern search in three coordinates; each plane costs what DenseReach asks.
+// A pattern search in three coordinates; each plane costs what DenseAccess asks.
 
 #include "segment/search/refined_plane.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double first_turn = 3 * std::numbers::pi / 180;
 constexpr int levels = 2;
-constexpr int most_moves = 2;  // of one step size
+constexpr int max_moves = 2;  // of one step size
 
 // A plane by how far it is moved and turned: along the normal, then about two axes across it.
 using Move = std::array<double, 3>;
@@ -28,14 +28,14 @@ Plane moved(const Plane& from, Vec3 middle, const Move& move) {
 
 }  // namespace
 
-RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& from, double step_mm,
+RefinedPlane refined_plane(DenseAccess& access, const Piece& piece, const Plane& from, double step_mm,
                            const Context& context, const std::function<bool(const Plane&)>& is_allowed) {
     const Vec3 middle = bounds(*piece.mesh).centre();
     Move best{};
-    RefinedPlane found{from, reach.unreachable_mm2(from)};
+    RefinedPlane found{from, access.unreachable_mm2(from)};
     Move step{step_mm, first_turn, first_turn};
     for (int level = 0; level < levels; ++level) {
-        for (int moves = 0; moves < most_moves && found.unreachable_mm2 > 0; ++moves) {
+        for (int moves = 0; moves < max_moves && found.unreachable_mm2 > 0; ++moves) {
             const Move start = best;
             const double before = found.unreachable_mm2;
             for (std::size_t k = 0; k < step.size(); ++k) {
@@ -45,7 +45,7 @@ RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& f
                     tried[k] += sign * step[k];
                     const Plane plane = moved(from, middle, tried);
                     if (is_allowed && !is_allowed(plane)) continue;
-                    const double unreachable = reach.unreachable_mm2(plane);
+                    const double unreachable = access.unreachable_mm2(plane);
                     if (unreachable >= found.unreachable_mm2) continue;
                     found = {plane, unreachable};
                     best = tried;

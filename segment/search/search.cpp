@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "base/timings.h"
+#include "segment/search/access_rank.h"
 #include "segment/search/beam.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
-#include "segment/search/reach_rank.h"
 #include "segment/search/trial.h"
 
 namespace qchopper {
@@ -103,7 +103,7 @@ class Search {
              b.next = judge_.next(b.segmentation, b.passed_over)) {
             const Piece& piece = b.segmentation.pieces[*b.next.piece];
             const double unreachable = judge_.unreachable(piece).mm2;
-            if (unreachable >= least_fall_to_hold_mm2(judge_.least_gain_mm2())) return;
+            if (unreachable >= least_fall_to_hold_mm2(judge_.min_gain_mm2())) return;
             b.passed_over.push_back(piece.name);
             b.reverted.push_back({piece.name, 0, unreachable, unreachable, false});
         }
@@ -148,8 +148,8 @@ class Search {
             }
             b.children = settings_.candidates.normals == CandidateNormals::sphere
                              ? without_near_planes(b.ranked, piece, cache_.box(piece))
-                             : without_near_duplicates(b.ranked, most_offsets(settings_.candidates), settings_.near);
-            const bool is_part = is_ranked_late(settings_) && !is_ranked_by_reach(piece, settings_);
+                             : without_near_duplicates(b.ranked, max_offsets(settings_.candidates), settings_.near);
+            const bool is_part = is_ranked_late(settings_) && !is_ranked_by_access(piece, settings_);
             if (!is_part || b.children.size() >= settings_.beam || b.ranked.size() < best) return;
         }
     }
@@ -163,7 +163,7 @@ class Search {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
                 // The next piece is evaluated already: no reason to evaluate others early.
                 if (i > 0 && cache_.is_evaluated(b.segmentation.pieces[b.next.waiting.front()])) break;
-                if (is_ranked_by_reach(piece, settings_) || is_ranked_late(settings_))
+                if (is_ranked_by_access(piece, settings_) || is_ranked_late(settings_))
                     continue;  // evaluated as far as needed, by rank()
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }

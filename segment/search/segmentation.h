@@ -48,7 +48,7 @@ struct Fragment {
     std::shared_ptr<const TriangleMesh> mesh;
 };
 
-// A piece that the operator decided not to carve.
+// A piece that the operator decided not to mill.
 struct Discarded {
     std::size_t after = 0;  // number of cuts that were made before
     Piece piece;

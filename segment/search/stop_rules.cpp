@@ -68,11 +68,11 @@ StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(con
 
 StopJudge::PieceRule StopJudge::cell_rule() const {
     const PieceChecks& checks = checks_;
-    if (!is_size_first_ || !checks.is_carvable) {
+    if (!is_size_first_ || !checks.is_machinable) {
         return {checks.fits_cell, [](const Piece&) { return "it does not fit the cell"; },
                 [blocks = checks.blocks_needed](const Piece&) { return blocks; }};
     }
-    return {[checks](const Piece& p) { return checks.fits_cell(p) && checks.is_carvable(p); },
+    return {[checks](const Piece& p) { return checks.fits_cell(p) && checks.is_machinable(p); },
             [checks](const Piece& p) {
                 return checks.fits_cell(p) ? "arm and tools of the cell cannot carve it in one piece"
                                            : "it does not fit the cell";
@@ -91,7 +91,7 @@ StopJudge::Verdict& StopJudge::verdict(const Piece& piece) {
 }
 
 const UnreachableSurface& StopJudge::unreachable(const Piece& piece) {
-    assert(is_reach_limited());
+    assert(is_access_limited());
     std::optional<UnreachableSurface>& surface = verdict(piece).unreachable;
     if (!surface) surface = checks_.unreachable(piece);
     return *surface;
@@ -121,7 +121,7 @@ std::string StopJudge::why(const Piece& piece) {
     for (std::size_t r = 0; r < holds.size(); ++r) {
         if (!holds[r]) add(piece_rules_[r].fault(piece));
     }
-    const bool is_asked = is_reach_limited() && (rules_.combine == Stop::any || faults.empty());
+    const bool is_asked = is_access_limited() && (rules_.combine == Stop::any || faults.empty());
     if (is_asked && is_out_of_reach(piece)) add(out_of_reach(unreachable(piece).share, *rules_.max_unreachable));
     return faults;
 }
@@ -133,7 +133,7 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
     std::vector<bool> failing(count, false);           // per piece: it breaks a rule
     std::vector<bool> only_unreachable(count, false);  // per piece: of its rules it breaks max_unreachable only
     // Per rule: some piece breaks it. The last one is max_unreachable.
-    std::vector<bool> broken(piece_rules_.size() + (is_reach_limited() ? 1 : 0), false);
+    std::vector<bool> broken(piece_rules_.size() + (is_access_limited() ? 1 : 0), false);
     for (std::size_t p = 0; p < count; ++p) {
         const Piece& piece = segmentation.pieces[p];
         const std::vector<bool>& holds = verdict(piece).holds;
@@ -142,7 +142,7 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
             failing[p] = true;
             broken[r] = true;
         }
-        const bool is_asked = is_reach_limited() && (rules_.combine == Stop::any || !failing[p]);
+        const bool is_asked = is_access_limited() && (rules_.combine == Stop::any || !failing[p]);
         if (!is_asked || !is_out_of_reach(piece)) continue;
         only_unreachable[p] = !failing[p];
         failing[p] = true;

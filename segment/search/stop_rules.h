@@ -33,7 +33,7 @@ struct StopRules {
     bool is_any_set() const { return max_faces || min_cuts || max_obb || fits_cell || max_unreachable; }
 };
 
-// Whether a piece, as it would be carved, passes the check of the cell. Given by a module that sees cells.
+// Whether a piece, as it would be milled, passes the check of the cell. Given by a module that sees cells.
 using FitsCell = std::function<bool(const Piece&)>;
 
 // The surface of a piece, its caps left out, that no tool reaches, and its share of the piece's surface. Given by a
@@ -58,14 +58,14 @@ struct PieceChecks {
     FitsCell fits_cell;
     UnreachableOf unreachable;
     BlocksNeeded blocks_needed = {};  // allowed is what some block of the cell holds
-    // Whether arm, tools and holder of the cell can carve the piece: a part of the rule fits_cell where a priority is
-    // given, asked of pieces that fit the cell (app/jobs/setups.cpp says why). One that they cannot carve is cut for
+    // Whether arm, tools and holder of the cell can mill the piece: a part of the rule fits_cell where a priority is
+    // given, asked of pieces that fit the cell (app/jobs/setups.cpp says why). One that they cannot mill is cut for
     // the sizes of low_blocks_needed.
-    FitsCell is_carvable = {};
+    FitsCell is_machinable = {};
     BlocksNeeded low_blocks_needed = {};
     // Surface (mm2) of which less is no gain of cuts on trial (trial.h): a patch that the finest tool cannot tell from
     // none.
-    double least_gain_mm2 = 0;
+    double min_gain_mm2 = 0;
     PlanesOnTrial planes_on_trial = {};  // of a piece that is cut on trial; empty: the ranking as it is
 };
 
@@ -101,7 +101,7 @@ class StopJudge {
     BlocksNeeded too_large_for(const Piece& piece);
     // Precondition: max_unreachable is set, and its function is not empty.
     const UnreachableSurface& unreachable(const Piece& piece);
-    double least_gain_mm2() const { return checks_.least_gain_mm2; }
+    double min_gain_mm2() const { return checks_.min_gain_mm2; }
     std::vector<Ranked> planes_on_trial(const Segmentation& segmentation, std::size_t piece,
                                         std::vector<Ranked> ranked) const;
 
@@ -119,7 +119,7 @@ class StopJudge {
     };
     PieceRule cell_rule() const;
     Verdict& verdict(const Piece& piece);
-    bool is_reach_limited() const { return rules_.max_unreachable && checks_.unreachable; }
+    bool is_access_limited() const { return rules_.max_unreachable && checks_.unreachable; }
     bool is_out_of_reach(const Piece& piece) { return unreachable(piece).share > *rules_.max_unreachable; }
 
     StopRules rules_;

@@ -13,8 +13,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_share_of_unreachable = 0.1;
-constexpr double least_share_of_area = 0.002;
+constexpr double min_share_of_unreachable = 0.1;
+constexpr double min_share_of_area = 0.002;
 constexpr double mm2_per_cm2 = 100;
 
 // What objectives of reach count: without caps, and without what is ignored.
@@ -105,9 +105,9 @@ class Attempt {
 
 }  // namespace
 
-double least_fall_mm2(const Piece& piece, double before_mm2, double least_gain_mm2) {
+double min_fall_mm2(const Piece& piece, double before_mm2, double min_gain_mm2) {
     return std::max(
-        {least_share_of_unreachable * before_mm2, least_share_of_area * counted_area(*piece.mesh), least_gain_mm2});
+        {min_share_of_unreachable * before_mm2, min_share_of_area * counted_area(*piece.mesh), min_gain_mm2});
 }
 
 std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first, const SearchSettings& settings,
@@ -117,8 +117,8 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
-    const double least = least_fall_mm2(*piece, before, judge.least_gain_mm2());
-    const double least_to_hold = least_fall_to_hold_mm2(judge.least_gain_mm2());
+    const double least = min_fall_mm2(*piece, before, judge.min_gain_mm2());
+    const double least_to_hold = least_fall_to_hold_mm2(judge.min_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
         const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();

@@ -2,7 +2,7 @@
 //
 // mm2. Cuts make a piece better if, within three cuts of it and its descendants, their unreachable area falls by at
 // least 10 % of the piece's, by 0.2 % of the piece's area, and by what the finest tool can tell from nothing
-// (PieceChecks::least_gain_mm2); or if every piece holds the rules then and it falls by a quarter of the last. One cut
+// (PieceChecks::min_gain_mm2); or if every piece holds the rules then and it falls by a quarter of the last. One cut
 // may gain nothing. Every cut made is real: nothing is estimated. On what was chosen:
 // docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests: tests/segment/search/trial_test.cpp.
 
@@ -24,11 +24,11 @@ constexpr int trial_cuts = 3;
 
 // By how much the unreachable area of a piece must fall at least, if `before_mm2` is out of reach now and not every
 // piece holds the rules then. O(triangles).
-double least_fall_mm2(const Piece& piece, double before_mm2, double least_gain_mm2);
+double min_fall_mm2(const Piece& piece, double before_mm2, double min_gain_mm2);
 
 // The same if every piece holds the rules then. A piece of which less is out of reach is not cut on trial at all.
-constexpr double least_fall_to_hold_mm2(double least_gain_mm2) {
-    return least_gain_mm2 / 4;
+constexpr double least_fall_to_hold_mm2(double min_gain_mm2) {
+    return min_gain_mm2 / 4;
 }
 
 struct Trial {

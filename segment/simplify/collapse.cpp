@@ -134,7 +134,7 @@ bool collapse_edges(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_lock
     if (!decimater.initialize()) return false;
     Reporter reporter(context, mesh.points.size());
     decimater.set_observer(&reporter);
-    decimater.decimate_to_faces(0, limits.most_faces);
+    decimater.decimate_to_faces(0, limits.max_faces);
     context.check_cancelled();
     mesh = result_of(surface, mesh);
     return true;

@@ -21,7 +21,7 @@ struct CollapseLimits {
     // limit.
     std::optional<double> distance;
     double planes = 2;
-    std::size_t most_faces = 0;  // the collapses stop at this number
+    std::size_t max_faces = 0;  // the collapses stop at this number
 };
 
 // `is_locked` has one flag per point, or is empty: then no point is locked. Faces that stay keep their order, their

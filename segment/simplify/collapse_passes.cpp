@@ -301,15 +301,15 @@ TriangleMesh CollapsePasses::result() {
 }  // namespace
 
 TriangleMesh collapse_in_passes(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked,
-                                std::size_t most_faces, const Context& context) {
+                                std::size_t max_faces, const Context& context) {
     constexpr double share_of_points = 0.35;
     CollapsePasses passes(mesh, is_locked);
     std::size_t removed = 0;
     double room = 1;  // more where a pass has found little
-    while (passes.faces() > most_faces) {
+    while (passes.faces() > max_faces) {
         context.check_cancelled();
         context.progress("points removed", removed, mesh.points.size());
-        const std::size_t most = (passes.faces() - most_faces + 1) / 2;
+        const std::size_t most = (passes.faces() - max_faces + 1) / 2;
         const std::size_t all = passes.points();
         const double share =
             room * std::min(share_of_points * static_cast<double>(all), 1.5 * static_cast<double>(most));

@@ -16,11 +16,11 @@
 
 namespace qchopper {
 
-// `is_locked` has one flag per point, or is empty: then no point is locked. The result has at most `most_faces` faces,
+// `is_locked` has one flag per point, or is empty: then no point is locked. The result has at most `max_faces` faces,
 // or more if the passes find no other edge that may collapse. Faces that stay keep their order, their caps and, where
 // it stays, their first corner; points keep their order, those without a face are left out. Precondition: the mesh is
 // closed, and the faces of every point form one fan (manifold.h). Throws Cancelled (base/context.h).
 TriangleMesh collapse_in_passes(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked,
-                                std::size_t most_faces, const Context& context = {});
+                                std::size_t max_faces, const Context& context = {});
 
 }  // namespace qchopper

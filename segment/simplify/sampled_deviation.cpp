@@ -43,12 +43,12 @@ double mean_longest_side(const TriangleMesh& mesh) {
 class TriangleGrid {
  public:
     TriangleGrid(const TriangleTree& tree, double cell_mm) {
-        constexpr double most_cells = 1 << 21;
+        constexpr double max_cells = 1 << 21;
         const FloatBox& all = tree.of_node[1];
         low_ = all.min;
         double cell = std::max(cell_mm, 1e-9);
         const auto along = [&](std::size_t axis) { return (double{all.max[axis]} - all.min[axis]) / cell + 1; };
-        while (along(0) * along(1) * along(2) > most_cells) cell *= 1.5;
+        while (along(0) * along(1) * along(2) > max_cells) cell *= 1.5;
         per_mm_ = static_cast<float>(1 / cell);
         for (std::size_t axis = 0; axis < 3; ++axis) cells_[axis] = static_cast<std::size_t>(along(axis));
         first_.assign(cells_[0] * cells_[1] * cells_[2] + 2, 0);
@@ -68,13 +68,13 @@ class TriangleGrid {
  private:
     template <class Visit>
     void for_each_entry(const TriangleTree& tree, const Visit& visit) const {
-        constexpr std::size_t most_per_triangle = 64;
+        constexpr std::size_t max_per_triangle = 64;
         for (std::uint32_t place = 0; place < tree.of_triangle.size(); ++place) {
             const FloatBox& box = tree.of_triangle[place];
             const std::array<std::size_t, 3> from{cell_at(box.min, 0), cell_at(box.min, 1), cell_at(box.min, 2)};
             const std::array<std::size_t, 3> to{cell_at(box.max, 0), cell_at(box.max, 1), cell_at(box.max, 2)};
             const std::size_t touched = (to[0] - from[0] + 1) * (to[1] - from[1] + 1) * (to[2] - from[2] + 1);
-            if (touched > most_per_triangle) continue;
+            if (touched > max_per_triangle) continue;
             for (std::size_t z = from[2]; z <= to[2]; ++z) {
                 for (std::size_t y = from[1]; y <= to[1]; ++y) {
                     for (std::size_t x = from[0]; x <= to[0]; ++x) visit(number({x, y, z}), place);
@@ -113,8 +113,8 @@ struct Surface {
     }
 
     int steps(double length) const {
-        constexpr double most_steps = 200;
-        return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, most_steps));
+        constexpr double max_steps = 200;
+        return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, max_steps));
     }
 };
 

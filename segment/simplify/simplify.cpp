@@ -22,15 +22,15 @@ namespace {
 constexpr std::size_t fewest_faces = 4;  // of any closed mesh
 
 void check(const SimplifyOptions& options) {
-    if (!options.tolerance && !options.most_faces) {
+    if (!options.tolerance && !options.max_faces) {
         throw InputError(InputFault::use, "neither a tolerance nor a number of faces is given", "give one of the two");
     }
     if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance))) {
         throw InputError(InputFault::use, "the tolerance is not a length above 0", "give it in mm, for example 0.5");
     }
-    if (options.most_faces && *options.most_faces < fewest_faces) {
+    if (options.max_faces && *options.max_faces < fewest_faces) {
         throw InputError(InputFault::use, "a piece has at least " + std::to_string(fewest_faces) + " faces, not " +
-                                              std::to_string(*options.most_faces));
+                                              std::to_string(*options.max_faces));
     }
 }
 
@@ -66,13 +66,13 @@ void measure(const TriangleMesh& mesh, const TriangleMesh& fewer, SimplifyReport
 // they deviate too much, all is repeated with a smaller limit.
 bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, SimplifyReport& report,
                      const Context& context) {
-    constexpr int most_tries = 8;
+    constexpr int max_tries = 8;
     constexpr double first_share = 0.8;
     const std::vector<std::uint8_t> is_locked = points_of_caps(mesh);
     CollapseLimits limits;
     limits.distance = first_share * *options.tolerance;
-    limits.most_faces = options.most_faces.value_or(0);
-    for (int i = 0; i < most_tries; ++i) {
+    limits.max_faces = options.max_faces.value_or(0);
+    for (int i = 0; i < max_tries; ++i) {
         TriangleMesh fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
         measure(mesh, fewer, report, context);
@@ -90,14 +90,14 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
 }
 
 // In passes; where these stop early although the caps would allow that number, by the queue.
-bool collapse_to(std::size_t most_faces, TriangleMesh& mesh, SimplifyReport& report, const Context& context) {
+bool collapse_to(std::size_t max_faces, TriangleMesh& mesh, SimplifyReport& report, const Context& context) {
     const std::vector<std::uint8_t> is_locked = points_of_caps(mesh);
-    TriangleMesh fewer = collapse_in_passes(mesh, is_locked, most_faces, context);
-    const bool is_enough = fewer.triangles.size() <= std::max(most_faces, report.cap_faces);
+    TriangleMesh fewer = collapse_in_passes(mesh, is_locked, max_faces, context);
+    const bool is_enough = fewer.triangles.size() <= std::max(max_faces, report.cap_faces);
     if (!is_enough || !links(fewer).faults.is_closed()) {
         report.is_by_queue = true;
         CollapseLimits limits;
-        limits.most_faces = most_faces;
+        limits.max_faces = max_faces;
         fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
     }
@@ -115,15 +115,15 @@ SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, cons
     SimplifyReport report;
     report.faces_before = mesh.triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.cap_faces += cap_of(mesh, t) != no_cap ? 1 : 0;
-    if (!options.most_faces || mesh.triangles.size() > *options.most_faces) {
+    if (!options.max_faces || mesh.triangles.size() > *options.max_faces) {
         TriangleMesh split = mesh;
         split_fans(split, found.extra_fans);  // the collapses need one fan of faces around every point
         const bool is_done = options.tolerance ? collapse_within(split, options, report, context)
-                                               : collapse_to(*options.most_faces, split, report, context);
+                                               : collapse_to(*options.max_faces, split, report, context);
         if (is_done) mesh = std::move(split);
     }
     report.faces_after = mesh.triangles.size();
-    report.has_too_many_faces = options.most_faces && report.faces_after > *options.most_faces;
+    report.has_too_many_faces = options.max_faces && report.faces_after > *options.max_faces;
     return report;
 }
 

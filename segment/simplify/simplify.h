@@ -18,8 +18,8 @@
 namespace qchopper {
 
 struct SimplifyOptions {
-    std::optional<double> tolerance;        // mm: as few faces as this deviation allows
-    std::optional<std::size_t> most_faces;  // stop at this number; with a tolerance, at whichever comes first
+    std::optional<double> tolerance;       // mm: as few faces as this deviation allows
+    std::optional<std::size_t> max_faces;  // stop at this number; with a tolerance, at whichever comes first
 };
 
 struct SimplifyReport {
@@ -29,8 +29,8 @@ struct SimplifyReport {
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
     double from_result = 0;           // mm: of the samples of the result to the piece (sampled_deviation.h)
     std::size_t crossings = 0;        // pairs of faces that run through each other (self_intersections.h), new ones
-    bool has_too_many_faces = false;  // more faces than most_faces are left: no other edge could collapse
-    bool is_by_queue = false;         // the passes did not reach most_faces, so the slower way was taken (collapse.h)
+    bool has_too_many_faces = false;  // more faces than max_faces are left: no other edge could collapse
+    bool is_by_queue = false;         // the passes did not reach max_faces, so the slower way was taken (collapse.h)
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }
 };
 

@@ -29,17 +29,17 @@ inline double squared_roundness(const FaceShape& shape) {
 
 // A needle has no reliable normal, so none may be made; one that exists may become rounder.
 inline bool is_sound_change(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after) {
-    constexpr double least_roundness = 0.03;
-    constexpr double least_of_all = 1e-6;
-    constexpr double least_cosine = 0.5;
+    constexpr double min_roundness = 0.03;
+    constexpr double min_of_all = 1e-6;
+    constexpr double min_cosine = 0.5;
     const FaceShape old = shape_of(before);
     const FaceShape made = shape_of(after);
     const double cosine = dot(old.normal, made.normal);  // times both lengths
     const double lengths = dot(old.normal, old.normal) * dot(made.normal, made.normal);
-    if (!(cosine >= 0) || cosine * cosine < least_cosine * least_cosine * lengths) return false;
+    if (!(cosine >= 0) || cosine * cosine < min_cosine * min_cosine * lengths) return false;
     const double round = squared_roundness(made);
-    if (round >= least_roundness * least_roundness) return true;
-    return round > least_of_all * least_of_all && round >= squared_roundness(old);
+    if (round >= min_roundness * min_roundness) return true;
+    return round > min_of_all * min_of_all && round >= squared_roundness(old);
 }
 
 }  // namespace qchopper

@@ -141,7 +141,7 @@ class Solver {
         const double load = residual_norm();
         result.has_converged = load == 0;
         double rz = first_direction();
-        while (!result.has_converged && result.iterations < options.most_iterations) {
+        while (!result.has_converged && result.iterations < options.max_iterations) {
             if (result.iterations % 50 == 0) {
                 context.check_cancelled();
                 context.progress("iterations of the stress analysis", result.iterations, 0);

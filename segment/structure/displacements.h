@@ -46,7 +46,7 @@ struct Displacements {
 
 struct SolveOptions {
     double residual = 1e-6;
-    std::size_t most_iterations = 50'000;
+    std::size_t max_iterations = 50'000;
 };
 
 // Preconditions: the loads are those of the nodes, and every part of the voxels that is joined by faces is held so that

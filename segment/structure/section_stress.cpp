@@ -15,13 +15,13 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_component = 1e-4;  // below it the differences that follow would lose their digits
+constexpr double min_component = 1e-4;  // below it the differences that follow would lose their digits
 
 // The widths of the three variables, the largest first; those that count as 0 are 0.
 std::array<double, 3> widths(Vec3 normal) {
     std::array<double, 3> w{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     std::sort(w.begin(), w.end(), std::greater<>());
-    for (double& x : w) x = x < least_component ? 0 : x;
+    for (double& x : w) x = x < min_component ? 0 : x;
     return w;
 }
 

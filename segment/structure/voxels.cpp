@@ -104,7 +104,7 @@ VoxelGrid voxel_grid(const TriangleMesh& mesh, Vec3 up, double size) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double count = std::max(1.0, std::ceil((high[k] - low[k]) / size - 1e-6));
         cells *= count + 2;
-        if (!(cells <= most_voxel_cells)) {
+        if (!(cells <= max_voxel_cells)) {
             throw InputError(InputFault::use, "voxels of this size make a grid of more than 250 million cells",
                              "pass larger voxels");
         }

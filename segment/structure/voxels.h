@@ -38,11 +38,11 @@ struct VoxelGrid {
 };
 
 // More cells a grid may not have: a number of 32 bits each, and a table of them in memory.
-constexpr double most_voxel_cells = 2.5e8;
+constexpr double max_voxel_cells = 2.5e8;
 
 // A grid around all points. Voxels of `size` that go a whole number of times into the extent, to 1e-6, leave no rest;
 // else the rest is beyond the upper ends. `up` need not be of length 1. Throws InputError (use) if the grid would have
-// more than most_voxel_cells cells. Preconditions: the mesh has points, up is not zero, size is above 0.
+// more than max_voxel_cells cells. Preconditions: the mesh has points, up is not zero, size is above 0.
 VoxelGrid voxel_grid(const TriangleMesh& mesh, Vec3 up, double size);
 
 // The numbers of the voxels whose centres lie inside, ascending. Precondition: the mesh is closed (edges.h), outwards.

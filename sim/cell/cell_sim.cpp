@@ -264,7 +264,7 @@ void CellSim::start() {
         throw InputError(InputFault::use, "the speed of a cell must be greater than 0",
                          "Give 1 for the speed of the real cell.");
     }
-    p.store = std::make_unique<Store>(p.options.store_folder, p.options.most_store_bytes);
+    p.store = std::make_unique<Store>(p.options.store_folder, p.options.max_store_bytes);
     p.cell_hooks = p.hooks();
     std::random_device device;
     const std::uint64_t seed = (std::uint64_t{device()} << 32U) | device();

@@ -24,7 +24,7 @@ struct CellSimOptions {
     std::vector<std::string> allow;         // numeric addresses of peers
     std::filesystem::path drop_folder;      // where job files arrive; empty: only chunks
     std::filesystem::path store_folder;     // of a memory that outlives the program; empty: a temporary one
-    std::uint64_t most_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
+    std::uint64_t max_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
     // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may
     // outlive the cell. Without it and on_question nobody consents.

@@ -32,7 +32,7 @@ struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
     Consent consent = Consent::automatic;
     double speed = 1;  // simulated seconds of a job per second
-    Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
+    Box workspace{{-5000, -5000, -5000}, {5000, 5000, 5000}};
     Vec3 max_stock{5000, 5000, 5000};
     std::vector<CellTool> tools;               // in the rack; empty: any
     std::uint32_t takeover_code = 0;           // with it a CLAIM replaces the lease of another dispatcher; 0: none does

@@ -101,11 +101,11 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
 }
 
 void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now) {
-    const Decoded<Heartbeat> beat = decode_heartbeat(block);
-    if (!beat.is_ok() || !cell::holds_lease(cell, beat.value.owner, beat.value.epoch)) return;
+    const Decoded<Heartbeat> heartbeat = decode_heartbeat(block);
+    if (!heartbeat.is_ok() || !cell::holds_lease(cell, heartbeat.value.owner, heartbeat.value.epoch)) return;
     Lease& lease = *cell.lease;
-    if (now.steady_ms >= lease.until_ms || lease.counter == beat.value.counter) return;
-    lease.counter = beat.value.counter;
+    if (now.steady_ms >= lease.until_ms || lease.counter == heartbeat.value.counter) return;
+    lease.counter = heartbeat.value.counter;
     lease.heartbeat_ms = now.steady_ms;
     lease.until_ms = now.steady_ms + cell::lease_ms;
     cell.watchdog_expired = false;

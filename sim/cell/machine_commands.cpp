@@ -89,7 +89,7 @@ Answer wait_for(CellState& cell, const Command& command, Pending::Waits waits, C
 Answer claim(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.epoch <= cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
     // A number far ahead would leave few numbers for later CLAIMs.
-    if (command.epoch - cell.memory.epoch_held > most_epoch_jump) {
+    if (command.epoch - cell.memory.epoch_held > max_epoch_jump) {
         return {AckResult::epoch_jump, cell.memory.epoch_held};
     }
     if (cell.lease) {
@@ -400,8 +400,8 @@ Answer execute(CellState& cell, const Command& command, CellTime now, const Cell
 void keep_acknowledgement(CellState& cell, const Acknowledgement& ack) {
     std::erase_if(cell.senders, [&](const Acknowledgement& old) { return old.owner == ack.owner; });
     cell.senders.push_back(ack);
-    assert(cell.senders.size() <= most_senders + 1);
-    if (cell.senders.size() > most_senders) {
+    assert(cell.senders.size() <= max_senders + 1);
+    if (cell.senders.size() > max_senders) {
         // The oldest, but never that of the lease holder: it may have to be repeated.
         const bool first_holds = cell.lease && cell.senders.front().owner == cell.lease->owner;
         cell.senders.erase(cell.senders.begin() + (first_holds ? 1 : 0));

@@ -12,8 +12,8 @@ namespace qchopper::cell {
 constexpr std::int64_t lease_ms = 5000;     // of a lease without a heartbeat
 constexpr std::int64_t watchdog_ms = 2500;  // until the watchdog expires
 constexpr std::int64_t token_ms = 120000;   // of a start token
-constexpr std::size_t most_senders = 256;
-constexpr std::uint32_t most_epoch_jump = 1U << 20;
+constexpr std::size_t max_senders = 256;
+constexpr std::uint32_t max_epoch_jump = 1U << 20;
 
 // machine.cpp
 void log(CellState& cell, const CellHooks& hooks, const std::string& line);

@@ -18,8 +18,8 @@ constexpr std::uint8_t illegal_address = 2;
 constexpr std::uint8_t illegal_value = 3;
 constexpr std::uint8_t no_such_unit = 0x0B;  // gateway target device failed to respond
 
-constexpr std::size_t most_read = 125;
-constexpr std::size_t most_written = 123;
+constexpr std::size_t max_read = 125;
+constexpr std::size_t max_written = 123;
 
 std::uint16_t u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
@@ -55,7 +55,7 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
     if (pdu.size() != 5) return exception_pdu(pdu[0], illegal_value);
     const std::uint16_t address = u16_at(pdu, 1);
     const std::uint16_t count = u16_at(pdu, 3);
-    if (count < 1 || count > most_read) return exception_pdu(pdu[0], illegal_value);
+    if (count < 1 || count > max_read) return exception_pdu(pdu[0], illegal_value);
     const Block* block = block_around(side, address, count);
     if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
     pass_time(cell, now, hooks);
@@ -100,7 +100,7 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     if (pdu.size() < 6) return exception_pdu(pdu[0], illegal_value);
     const std::uint16_t address = u16_at(pdu, 1);
     const std::uint16_t count = u16_at(pdu, 3);
-    const bool fits = count >= 1 && count <= most_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
+    const bool fits = count >= 1 && count <= max_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
     if (!fits) return exception_pdu(pdu[0], illegal_value);
     const Block* block = block_around(Side::holding, address, count);
     if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);

@@ -27,14 +27,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_connections = 8;
+constexpr std::size_t max_connections = 8;
 constexpr double quiet_s = 1;                  // refused connections are reported when no more came for so long,
 constexpr double count_s = 10;                 // but not later than this after the first
 constexpr std::size_t input_bytes = 520;       // two frames of the largest kind
 constexpr std::size_t output_bytes = 4 * 260;  // four answers; a client that has not read them is not read either
 constexpr std::size_t head_bytes = 7;          // MBAP: transaction, protocol, length, unit
-constexpr std::size_t least_length = 2;        // of unit and PDU
-constexpr std::size_t most_length = 254;
+constexpr std::size_t min_length = 2;          // of unit and PDU
+constexpr std::size_t max_length = 254;
 
 // A part of an answer that is not to be sent yet.
 struct Held {
@@ -154,7 +154,7 @@ struct ModbusServer::Loop {
         const Bytes& in = connection.input;
         if (in.size() < head_bytes) return true;
         const std::size_t length = length_of(connection);
-        return in[2] == 0 && in[3] == 0 && length >= least_length && length <= most_length;
+        return in[2] == 0 && in[3] == 0 && length >= min_length && length <= max_length;
     }
 
     static bool has_frame(const Connection& connection) {
@@ -245,7 +245,7 @@ struct ModbusServer::Loop {
         const bool is_listed = std::find(options.allow.begin(), options.allow.end(), peer) != options.allow.end();
         if (!is_listed && !is_loopback(peer)) return false;
         // With a list, the last place is kept for those on it.
-        const std::size_t places = most_connections - (!options.allow.empty() && !is_listed ? 1 : 0);
+        const std::size_t places = max_connections - (!options.allow.empty() && !is_listed ? 1 : 0);
         return connections.size() < places || make_room(connections.size() + 1 - places);
     }
 

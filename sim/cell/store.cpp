@@ -53,10 +53,10 @@ void remove_leftovers(const fs::path& folder) {
 
 }  // namespace
 
-Store::Store(const fs::path& folder, std::uint64_t most_bytes)
+Store::Store(const fs::path& folder, std::uint64_t max_bytes)
     : own_(folder.empty() ? std::make_unique<TemporaryFolder>("qchopper-cell-sim-") : nullptr),
       folder_(own_ ? own_->path() : folder),
-      most_bytes_(most_bytes) {
+      max_bytes_(max_bytes) {
     std::error_code error;
     fs::create_directories(folder_ / "jobs", error);
     if (error) {
@@ -95,7 +95,7 @@ std::uint64_t Store::free_bytes() const {
     if (error) return 0;
     std::uint64_t used = 0;
     for (const Copy& copy : copies_in(folder_ / "jobs")) used += copy.size;
-    return std::min<std::uint64_t>(disk.available, most_bytes_ - std::min(used, most_bytes_));
+    return std::min<std::uint64_t>(disk.available, max_bytes_ - std::min(used, max_bytes_));
 }
 
 std::uint32_t Store::free_kib() const {

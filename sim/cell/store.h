@@ -16,9 +16,9 @@ namespace qchopper {
 
 class Store {
  public:
-    // An empty path: a temporary folder, removed at the end. `most_bytes`: of all copies together. Throws InputError
+    // An empty path: a temporary folder, removed at the end. `max_bytes`: of all copies together. Throws InputError
     // (create, busy): the folder cannot be made or locked, or another program holds it.
-    Store(const std::filesystem::path& folder, std::uint64_t most_bytes);
+    Store(const std::filesystem::path& folder, std::uint64_t max_bytes);
     ~Store();
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
@@ -37,7 +37,7 @@ class Store {
 
     std::unique_ptr<TemporaryFolder> own_;
     std::filesystem::path folder_;
-    std::uint64_t most_bytes_;
+    std::uint64_t max_bytes_;
     int lock_ = -1;
 };
 

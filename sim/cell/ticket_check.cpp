@@ -88,9 +88,9 @@ std::optional<TicketFault> does_not_fit(const WireTicket& t, const CellLimits& l
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         // Rounded as the ticket is.
-        if (t.box_min[a] < std::round(100 * limits.reach.min[axis]))
+        if (t.box_min[a] < std::round(100 * limits.workspace.min[axis]))
             return TicketFault{AckResult::envelope, axis_address("BOX_MIN", axis)};
-        if (t.box_max[a] > std::round(100 * limits.reach.max[axis]))
+        if (t.box_max[a] > std::round(100 * limits.workspace.max[axis]))
             return TicketFault{AckResult::envelope, axis_address("BOX_MAX", axis)};
         if (t.stock[a] > std::round(100 * limits.max_stock[axis]))
             return TicketFault{AckResult::envelope, axis_address("STOCK", axis)};

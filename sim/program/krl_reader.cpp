@@ -16,9 +16,9 @@ namespace qchopper {
 namespace {
 
 constexpr double radian = std::numbers::pi / 180;
-constexpr std::size_t most_files = 20'000;
-constexpr std::uint32_t most_outputs = 8192;
-constexpr std::uint32_t most_holes = 10'000;
+constexpr std::size_t max_files = 20'000;
+constexpr std::uint32_t max_outputs = 8192;
+constexpr std::uint32_t max_holes = 10'000;
 constexpr int look_ahead_restored = 3;
 
 struct Source {
@@ -77,7 +77,7 @@ class KrlExecution {
 
 KrlExecution::KrlExecution(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options)
     : main_(lower_case(main)) {
-    if (files.size() > most_files) refuse_line(main_, 1, "there are more than 20,000 files");
+    if (files.size() > max_files) refuse_line(main_, 1, "there are more than 20,000 files");
     for (const std::string& name : options.calls) calls_.push_back(lower_case(name));
     std::vector<std::string> data;
     for (const ProgramFile& file : files) {
@@ -125,7 +125,7 @@ void KrlExecution::read_comment(std::string_view line) {
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-    if (is_number && number < most_holes) hole_ = number;
+    if (is_number && number < max_holes) hole_ = number;
 }
 
 void KrlExecution::begin_chunk(bool is_main) {
@@ -274,7 +274,7 @@ bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
     const bool is_analog = name == "$anout";
     if (!is_analog && name != "$out") return false;
     line.need('[');
-    const std::uint32_t number = line.integer(1, is_analog ? 32 : most_outputs);
+    const std::uint32_t number = line.integer(1, is_analog ? 32 : max_outputs);
     line.need(']');
     line.need('=');
     double value = 0;
@@ -296,7 +296,7 @@ void KrlExecution::read_wait(KrlLine& line) {
     line.need_word("for");
     line.need_word("$in");
     line.need('[');
-    const std::uint32_t number = line.integer(1, most_outputs);
+    const std::uint32_t number = line.integer(1, max_outputs);
     line.need(']');
     line.need_end();
     add(StepKind::wait_input).number = number;

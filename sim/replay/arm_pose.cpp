@@ -12,7 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double least_gap = 1e-6;  // mm
+constexpr double min_gap = 1e-6;  // mm
 constexpr ArmThresholds thresholds{};
 
 const char* word_of(BodyPart part) {
@@ -61,10 +61,10 @@ void ArmPoses::check_singularity(const Joints& joints, SourcePlace place) {
 
 std::optional<Joints> ArmPoses::follow(const Pose& flange, const Joints& now) const {
     const ArmGeometry& arm = cell_.machine->robot->geometry;
-    const ArmBranch branch = branch_of(arm, now);
+    const ArmConfiguration configuration = configuration_of(arm, now);
     const ArmAnswers answers = inverse(arm, flange, now);
     for (const ArmAnswer& answer : answers) {
-        if (!(answer.branch == branch)) continue;
+        if (!(answer.configuration == configuration)) continue;
         Joints joints = answer.joints;
         for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
             joints[axis] = now[axis] + std::remainder(joints[axis] - now[axis], 2 * std::numbers::pi);
@@ -78,7 +78,7 @@ void ArmPoses::collide(const std::string& what, SourcePlace place) {
     log_.add(FindingKind::collision, place, 0, 0, [&] { return what; });
 }
 
-void ArmPoses::check_bodies(const Joints& joints, const CarvingTool& tool, SourcePlace place) {
+void ArmPoses::check_bodies(const Joints& joints, const CuttingTool& tool, SourcePlace place) {
     const MovingBodies bodies = bodies_at(cell_, tool, joints);
     check_links(bodies, place);
     for (const AxisBody& body : bodies.on_axis) check_axis_body(bodies, body, place);
@@ -90,17 +90,17 @@ void ArmPoses::check_links(const MovingBodies& bodies, SourcePlace place) {
         const std::string name = "link " + std::to_string(link.link);
         for (std::size_t j = 0; j < i; ++j) {
             const LinkBody& other = bodies.links[j];
-            if (may_touch(link.link, other.link) || distance(link.shape, other.shape) > least_gap) continue;
+            if (may_touch(link.link, other.link) || distance(link.shape, other.shape) > min_gap) continue;
             collide(name + " meets link " + std::to_string(other.link), place);
         }
         if (link.link == 0) continue;
         if (link.link > 1 && lowest(link.shape) < standing_.floor_z) collide(name + " meets the floor", place);
-        if ((standing_.table && distance(link.shape, *standing_.table) <= least_gap) ||
-            (standing_.rotary && distance(link.shape, *standing_.rotary) <= least_gap)) {
+        if ((standing_.table && distance(link.shape, *standing_.table) <= min_gap) ||
+            (standing_.rotary && distance(link.shape, *standing_.rotary) <= min_gap)) {
             collide(name + " meets the table", place);
         }
         for (const PlacedBox& box : standing_.obstacles) {
-            if (distance(link.shape, box) <= least_gap) collide(name + " meets an obstacle", place);
+            if (distance(link.shape, box) <= min_gap) collide(name + " meets an obstacle", place);
         }
     }
 }
@@ -111,21 +111,21 @@ void ArmPoses::check_axis_body(const MovingBodies& bodies, const AxisBody& body,
     if (low < standing_.floor_z) collide(name + " meets the floor", place);
     const double table_top =
         standing_.rotary ? standing_.rotary->from.z + standing_.rotary->radius * 0.02 : cell_.table.height;
-    if (low <= table_top + least_gap) {
-        if ((standing_.table && distance(body.shape, *standing_.table) <= least_gap) ||
-            (standing_.rotary && distance(body.shape, *standing_.rotary) <= least_gap)) {
+    if (low <= table_top + min_gap) {
+        if ((standing_.table && distance(body.shape, *standing_.table) <= min_gap) ||
+            (standing_.rotary && distance(body.shape, *standing_.rotary) <= min_gap)) {
             collide(name + " meets the table", place);
         }
     }
     for (const PlacedBox& box : standing_.obstacles) {
-        if (distance(around(body.shape), box) <= least_gap && distance(body.shape, box) <= least_gap) {
+        if (distance(around(body.shape), box) <= min_gap && distance(body.shape, box) <= min_gap) {
             collide(name + " meets an obstacle", place);
         }
     }
     const int own = body.part == BodyPart::spindle ? 6 : 7;
     for (const LinkBody& link : bodies.links) {
-        if (may_touch(own, link.link) || distance(link.shape, around(body.shape)) > least_gap) continue;
-        if (distance(link.shape, body.shape) <= least_gap) {
+        if (may_touch(own, link.link) || distance(link.shape, around(body.shape)) > min_gap) continue;
+        if (distance(link.shape, body.shape) <= min_gap) {
             collide(name + " meets link " + std::to_string(link.link), place);
         }
     }

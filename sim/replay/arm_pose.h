@@ -29,9 +29,9 @@ class ArmPoses {
     // Only while the arm follows a line: a PTP may pass a singularity.
     void check_singularity(const Joints& joints, SourcePlace place);
     // Links, spindle, holder and tool against table, floor, obstacles and links.
-    void check_bodies(const Joints& joints, const CarvingTool& tool, SourcePlace place);
-    // Those joints of `flange` (in the robot's base) on the branch of `now` that are nearest to it; nothing if there
-    // are none.
+    void check_bodies(const Joints& joints, const CuttingTool& tool, SourcePlace place);
+    // Those joints of `flange` (in the robot's base) on the configuration of `now` that are nearest to it; nothing if
+    // there are none.
     std::optional<Joints> follow(const Pose& flange, const Joints& now) const;
 
  private:

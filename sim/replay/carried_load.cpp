@@ -14,8 +14,8 @@ constexpr double metre = 1e-3;  // per mm
 
 }  // namespace
 
-CarriedLoad carried_load(const Spindle& spindle, const CarvingTool& tool) {
-    const Vec3 out = column(spindle.spindle_in_flange, spindle.tool_axis == ToolAxis::z ? 2 : 0);
+CarriedLoad carried_load(const Spindle& spindle, const CuttingTool& tool) {
+    const Vec3 tool_axis = column(spindle.spindle_in_flange, spindle.tool_axis == ToolAxis::z ? 2 : 0);
     double widest = tool.diameter;
     for (const HolderStep& step : tool.holder) widest = std::max(widest, step.diameter);
     CarriedLoad load;
@@ -35,9 +35,9 @@ CarriedLoad carried_load(const Spindle& spindle, const CarvingTool& tool) {
     add(tool.mass_kg, 0, gauge_length(tool), widest / 2);
     const double middle = first / load.mass_kg;
     const double across = second - load.mass_kg * middle * middle;
-    load.centre = spindle.spindle_in_flange.shift + (middle / metre) * out;
+    load.centre = spindle.spindle_in_flange.shift + (middle / metre) * tool_axis;
     for (int i = 0; i < 3; ++i) {
-        load.inertia[static_cast<std::size_t>(i)] = ((along - across) * out[i]) * out;
+        load.inertia[static_cast<std::size_t>(i)] = ((along - across) * tool_axis[i]) * tool_axis;
         load.inertia[static_cast<std::size_t>(i)][i] += across;
     }
     return load;

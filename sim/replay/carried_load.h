@@ -10,7 +10,7 @@
 #include <array>
 
 #include "base/vec3.h"
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 #include "cam/cell/robot.h"
 #include "sim/program/parsed_program.h"
 
@@ -22,7 +22,7 @@ struct CarriedLoad {
     std::array<Vec3, 3> inertia;  // rows of the tensor
 };
 
-CarriedLoad carried_load(const Spindle& spindle, const CarvingTool& tool);
+CarriedLoad carried_load(const Spindle& spindle, const CuttingTool& tool);
 CarriedLoad carried_load(const ProgramLoad& stated);
 
 // The largest difference of two components.

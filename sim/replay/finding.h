@@ -26,7 +26,7 @@ enum class FindingKind : std::uint8_t {
     reach,        // no joints hold a pose
     joint_limit,
     cable,
-    branch,  // the arm would have to change its branch, or an axis to jump
+    arm_configuration,  // the arm would have to change its configuration, or an axis to jump
     singularity,
     joint_speed,
     outside_reach,   // foam is cut outside of the cell's reach box; of gantries only

@@ -11,16 +11,16 @@
 
 #include "base/parallel.h"
 #include "segment/mesh/triangle_tree.h"
-#include "sim/replay/carve_foam.h"
 #include "sim/replay/hole_check.h"
-#include "sim/replay/stock/direction_frame.h"
+#include "sim/replay/mill_stock.h"
+#include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t lot = 512;            // lines
-constexpr double flat_cap = 0.05;           // mm, of the corners of a cap from its plane
-constexpr std::size_t most_parts = 20'000;  // of a triangle; then the bound is taken
+constexpr std::size_t lot = 512;           // lines
+constexpr double flat_cap = 0.05;          // mm, of the corners of a cap from its plane
+constexpr std::size_t max_parts = 20'000;  // of a triangle; then the bound is taken
 
 struct Part {
     std::array<Vec3, 3> corner;
@@ -44,7 +44,7 @@ double evaluate(const SweptCutter& swept, Part& part) {
         slope = std::min(slope, dot(gradient, corner - middle));
     }
     part.bound = distance - (is_ball ? std::min(radius, -slope) : radius);
-    if (!is_ball) part.bound = std::max(part.bound, swept.least_from_cylinder(part.corner));
+    if (!is_ball) part.bound = std::max(part.bound, swept.min_from_cylinder(part.corner));
     return distance;
 }
 
@@ -56,8 +56,8 @@ struct Hit {
 
 class DirectionGouges {
  public:
-    DirectionGouges(const ReplayScene& scene, std::size_t direction)
-        : frame_(direction_frame(scene.directions[direction].out)),
+    DirectionGouges(const ReplayScene& scene, std::size_t orientation)
+        : frame_(tool_axis_frame(scene.orientations[orientation].tool_axis)),
           turned_(in_frame(*scene.target, frame_)),
           tree_(turned_) {
         top_ = -1e9;
@@ -131,7 +131,7 @@ double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle,
     std::vector<Part> parts{{triangle, 0}};
     const auto is_shallower = [](const Part& a, const Part& b) { return a.bound > b.bound; };
     deepest = std::max(deepest, -evaluate(swept, parts[0]));
-    for (std::size_t left = most_parts; left > 0; --left) {
+    for (std::size_t left = max_parts; left > 0; --left) {
         if (parts.empty() || -parts.front().bound <= deepest + gouge_resolution) return deepest;
         std::pop_heap(parts.begin(), parts.end(), is_shallower);
         const std::array<Vec3, 3> c = parts.back().corner;
@@ -155,17 +155,17 @@ GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double 
     GougeFigures figures;
     figures.depth.assign(scene.target->triangles.size(), 0);
     std::vector<Cutter> cutters;
-    for (const CarvingTool& tool : scene.cell->machine->tools) cutters.push_back(cutter_of(tool));
+    for (const CuttingTool& tool : scene.cell->machine->tools) cutters.push_back(cutter_of(tool));
     std::size_t done = 0;
     std::uint32_t worst = 0;
-    for (std::size_t direction = 0; direction < scene.directions.size(); ++direction) {
+    for (std::size_t orientation = 0; orientation < scene.orientations.size(); ++orientation) {
         std::vector<std::uint32_t> lines;
         for (std::size_t i = 0; i < path.lines.size(); ++i) {
-            if (path.lines[i].direction == direction && path.lines[i].is_aligned)
+            if (path.lines[i].orientation == orientation && path.lines[i].is_aligned)
                 lines.push_back(static_cast<std::uint32_t>(i));
         }
         if (lines.empty()) continue;
-        const DirectionGouges gouges(scene, direction);
+        const DirectionGouges gouges(scene, orientation);
         const std::size_t lots = (lines.size() + lot - 1) / lot;
         constexpr std::size_t at_once = 64;
         for (std::size_t first = 0; first < lots; first += at_once) {

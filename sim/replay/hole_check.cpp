@@ -25,7 +25,7 @@ double offset_of(const SceneHole& hole, const TipLine& line) {
 }
 
 bool is_parallel(const SceneHole& hole, const TipLine& line, const ReplayScene& scene) {
-    return norm(hole.axis + scene.directions[line.direction].out) <= aligned;
+    return norm(hole.axis + scene.orientations[line.orientation].tool_axis) <= aligned;
 }
 
 std::string name_of(const SceneHole& hole) {
@@ -42,7 +42,7 @@ HoleSpace::HoleSpace(const ReplayScene& scene) {
     for (const SceneHole& hole : scene.holes) {
         if (!hole.is_robots) continue;
         double point = 0;
-        for (const CarvingTool& tool : scene.cell->machine->tools) {
+        for (const CuttingTool& tool : scene.cell->machine->tools) {
             const bool is_drill_of_it = is_drill(tool) && std::abs(tool.diameter - hole.diameter) <= drill_tolerance;
             if (is_drill_of_it) point = std::max(point, point_height(tool));
         }
@@ -131,7 +131,7 @@ void HoleCheck::end_stroke() {
     state.deepest = std::max(state.deepest, depth);
 }
 
-void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingTool& tool) {
+void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CuttingTool& tool) {
     const SceneHole& hole = scene_.holes[index];
     State& state = states_[index];
     const double offset = offset_of(hole, line);

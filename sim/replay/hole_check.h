@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/scene.h"
 #include "sim/replay/tool_path.h"
@@ -75,7 +75,7 @@ class HoleCheck {
     void take_cut(const TipLine& line, std::optional<std::size_t> index);
     void follow(const TipLine& line, std::optional<std::size_t> index);
     void end_stroke();
-    void take_hole(std::size_t index, const TipLine& line, const CarvingTool& tool);
+    void take_hole(std::size_t index, const TipLine& line, const CuttingTool& tool);
     void extra(const TipLine& line, const std::string& why);
 
     const ReplayScene& scene_;

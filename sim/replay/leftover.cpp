@@ -98,7 +98,7 @@ template <class ToolsOf>
 std::vector<const Closing*> closings_by(Closings& known, const ReplayScene& scene, const ToolsOf& tools_of,
                                         const Context& context) {
     std::vector<const Closing*> closings;
-    const std::size_t directions = carving_directions(scene);
+    const std::size_t directions = milling_orientations(scene);
     for (std::size_t d = 0; d < directions; ++d) {
         context.progress("directions closed", d, directions);
         for (const Closing* closing : known.along(d, tools_of(d), context)) closings.push_back(closing);
@@ -106,7 +106,7 @@ std::vector<const Closing*> closings_by(Closings& known, const ReplayScene& scen
     return closings;
 }
 
-std::vector<Judged> judge(const std::vector<Sample>& samples, const Foam& foam,
+std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& stock_model,
                           const std::vector<const Closing*>& closings, double within_reach, double most,
                           const Context& context) {
     std::vector<Judged> judged(samples.size());
@@ -118,7 +118,7 @@ std::vector<Judged> judge(const std::vector<Sample>& samples, const Foam& foam,
                         [&](std::size_t begin, std::size_t end) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 const Vec3 p = samples[i].point;
-                                judged[i] = {static_cast<float>(foam.distance_to_removed(p, most)),
+                                judged[i] = {static_cast<float>(stock_model.distance_to_removed(p, most)),
                                              first_to(closings, p, within_reach)};
                             }
                         });
@@ -128,13 +128,13 @@ std::vector<Judged> judge(const std::vector<Sample>& samples, const Foam& foam,
 
 // Areas of the points that are given up, by what would come to them.
 std::vector<GivenUp> areas_of(const std::vector<const Closing*>& given_up, const std::vector<Sample>& samples,
-                              const std::vector<CarvingTool>& tools) {
+                              const std::vector<CuttingTool>& tools) {
     std::vector<GivenUp> all;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (given_up[i] == nullptr) continue;
-        const GivenUp own{tools[given_up[i]->tool].number, given_up[i]->direction, samples[i].area};
+        const GivenUp own{tools[given_up[i]->tool].number, given_up[i]->orientation, samples[i].area};
         const auto same = std::find_if(all.begin(), all.end(), [&](const GivenUp& other) {
-            return other.tool == own.tool && other.direction == own.direction;
+            return other.tool == own.tool && other.orientation == own.orientation;
         });
         if (same == all.end()) {
             all.push_back(own);
@@ -161,8 +161,9 @@ double LeftoverFigures::sum_of(const std::vector<GivenUp>& surface) {
     return sum;
 }
 
-LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, const std::vector<float>& gouge,
-                                 const LeftoverOptions& options, const Context& context) {
+LeftoverFigures measure_leftover(const StockModel& stock_model, const ReplayScene& scene,
+                                 const std::vector<float>& gouge, const LeftoverOptions& options,
+                                 const Context& context) {
     const TriangleMesh& mesh = *scene.target;
     std::vector<Sample> samples;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -173,7 +174,7 @@ LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, con
     Closings known(scene, options.reach_cell);
     const auto closings_with = [&](const auto& tools_of) { return closings_by(known, scene, tools_of, context); };
     const auto allowed = closings_with([&](std::size_t) { return allowed_tools(scene); });
-    const std::vector<Judged> judged = judge(samples, foam, allowed, within_reach, options.most, context);
+    const std::vector<Judged> judged = judge(samples, stock_model, allowed, within_reach, options.most, context);
 
     // Of a point that keeps too much foam: what would come to it, where nothing that is used does.
     std::vector<const Closing*> given_up(samples.size(), nullptr);

@@ -1,7 +1,7 @@
 // What stays on the target, and beside it.
 //
 // mm. Distances from points of the target, weighted by triangle area, to the nearest removed point: cells count at
-// their middles, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if a
+// their centres, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if a
 // closing of the target by tools of the cell along some direction of the setup comes within the scallop height + 0.75
 // cells of it, whatever the program does: it asks only for what the operator allows (ReplayScene::tools). What keeps
 // more foam than the tolerance, and no tool that the program uses along a direction reaches, is given up. The base is
@@ -14,7 +14,7 @@
 #include "base/context.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/scene.h"
-#include "sim/replay/stock/foam.h"
+#include "sim/replay/stock/stock_model.h"
 
 namespace qchopper {
 
@@ -30,9 +30,9 @@ struct LeftoverOptions {
 
 // Surface that a tool reaches along a direction, though the program does not use it there.
 struct GivenUp {
-    std::uint16_t tool = 0;     // CarvingTool::number
-    std::size_t direction = 0;  // index in ReplayScene::directions
-    double area_mm2 = 0;        // that keeps more foam than the tolerance, and counts for no other tool
+    std::uint16_t tool = 0;       // CuttingTool::number
+    std::size_t orientation = 0;  // index in ReplayScene::orientations
+    double area_mm2 = 0;          // that keeps more foam than the tolerance, and counts for no other tool
 };
 
 struct LeftoverFigures {
@@ -53,7 +53,8 @@ struct LeftoverFigures {
 };
 
 // `gouge` is GougeFigures::depth. Throws Cancelled.
-LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, const std::vector<float>& gouge,
-                                 const LeftoverOptions& options, const Context& context);
+LeftoverFigures measure_leftover(const StockModel& stock_model, const ReplayScene& scene,
+                                 const std::vector<float>& gouge, const LeftoverOptions& options,
+                                 const Context& context);
 
 }  // namespace qchopper

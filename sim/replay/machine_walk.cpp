@@ -60,7 +60,7 @@ class Walk {
           joints_(machine_.start.joints),
           table_angle_(scene.start_table_angle) {
         if (machine_.rotary_table) {
-            const SceneDirection& first = scene.directions.front();
+            const SceneOrientation& first = scene.orientations.front();
             setup_in_table_ = inverse(table_at(first.table_angle)) * first.setup_in_cell;
         }
     }
@@ -70,11 +70,11 @@ class Walk {
     Pose table_at(double angle) const { return machine_.rotary_table->table_in_cell * about_z(angle); }
     Pose setup_in_cell() const {
         return machine_.rotary_table ? table_at(table_angle_) * setup_in_table_
-                                     : scene_.directions[direction_].setup_in_cell;
+                                     : scene_.orientations[direction_].setup_in_cell;
     }
     void enter(const ProgramChunk& chunk);
     void take_tool(std::uint16_t number, SourcePlace place);
-    void check_asked(const CarvingTool& tool, SourcePlace place);
+    void check_asked(const CuttingTool& tool, SourcePlace place);
     void take(const ProgramStep& step);
     void take_halt(const ProgramStep& step);
     void take_call(const ProgramStep& step);
@@ -89,11 +89,11 @@ class Walk {
     void follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
     void check_speed(const Joints& before, double way, double feed, SourcePlace place);
     void check_table(const ProgramStep& step);
-    bool is_aligned(Vec3 out, SourcePlace place);
-    void add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const ModalState& state);
+    bool is_aligned(Vec3 tool_axis, SourcePlace place);
+    void add_line(Vec3 from, Vec3 to, Vec3 tool_axis, const ProgramStep& step, const ModalState& state);
     Pose base_in_robot(const ModalState& state) const;
     TipPose tip_pose() const;
-    const CarvingTool& tool() const { return machine_.tools[tool_]; }
+    const CuttingTool& tool() const { return machine_.tools[tool_]; }
 
     const ParsedProgram& program_;
     const ReplayScene& scene_;
@@ -161,12 +161,12 @@ void Walk::enter(const ProgramChunk& chunk) {
             if (lower_case(scene_.chunks[i].name) == stem) chunk_ = static_cast<std::uint32_t>(i);
         }
     }
-    direction_ = static_cast<std::uint32_t>(scene_.chunks[chunk_].direction);
+    direction_ = static_cast<std::uint32_t>(scene_.chunks[chunk_].orientation);
     take_tool(scene_.chunks[chunk_].tool, place);
 }
 
 // A person is told which tool it is, and how long it must be.
-void Walk::check_asked(const CarvingTool& tool, SourcePlace place) {
+void Walk::check_asked(const CuttingTool& tool, SourcePlace place) {
     const std::string name = "tool " + std::to_string(tool.number);
     const bool was_called = asked_tool_ && *asked_tool_ == tool.number;
     const bool was_asked = !machine_.program.tool_change_call && asked_.find(name + " ") != std::string::npos;
@@ -318,7 +318,7 @@ void Walk::take_joint_move(const ProgramStep& step) {
 }
 
 void Walk::check_table(const ProgramStep& step) {
-    const double wanted = scene_.directions[direction_].table_angle;
+    const double wanted = scene_.orientations[direction_].table_angle;
     const double off = step.e1 ? std::abs(std::remainder(*step.e1 - wanted, 2 * std::numbers::pi)) / degree : 360;
     if (off <= 0.01) return;
     log_.add(FindingKind::table_angle, step.place, off, off,
@@ -348,16 +348,16 @@ void Walk::take_line(const ProgramStep& step) {
     const Pose flange = to * inverse(tool_said);
     const Pose tip = robot_.base_in_cell * (flange * tool_arm(robot_, machine_.spindle, tool()).tip_in_flange);
     const Pose setup = setup_in_cell();
-    if (!follows_line_) is_aligned(before.out, step.place);
+    if (!follows_line_) is_aligned(before.tool_axis, step.place);
     const Vec3 start = follows_line_ && !path_.lines.empty() ? path_.lines.back().to : before.tip;
     add_line(start, apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2)), step, state);
     follows_line_ = true;
 }
 
 // Where a line begins and ends: one along which the tool turns removes other foam than a tool that stands.
-bool Walk::is_aligned(Vec3 out, SourcePlace place) {
-    const Vec3 wanted = scene_.directions[direction_].out;
-    const double turn = std::atan2(norm(cross(out, wanted)), dot(out, wanted));
+bool Walk::is_aligned(Vec3 tool_axis, SourcePlace place) {
+    const Vec3 wanted = scene_.orientations[direction_].tool_axis;
+    const double turn = std::atan2(norm(cross(tool_axis, wanted)), dot(tool_axis, wanted));
     if (turn <= aligned_turn) return true;
     log_.add(FindingKind::tool_axis, place, turn / degree, turn, [&] {
         return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the direction of the chunk";
@@ -365,7 +365,7 @@ bool Walk::is_aligned(Vec3 out, SourcePlace place) {
     return false;
 }
 
-void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const ModalState& state) {
+void Walk::add_line(Vec3 from, Vec3 to, Vec3 tool_axis, const ProgramStep& step, const ModalState& state) {
     TipLine line{from,
                  to,
                  step.place,
@@ -375,7 +375,7 @@ void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const
                  state.feed,
                  state.acceleration,
                  step.is_rounded ? state.rounding : 0,
-                 is_aligned(out, step.place),
+                 is_aligned(tool_axis, step.place),
                  follows_line_,
                  signals_.in_chunk(),
                  step.hole};
@@ -416,7 +416,7 @@ void Walk::check_speed(const Joints& before, double way, double feed, SourcePlac
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         const double turn = std::abs(joints_[axis] - before[axis]);
         if (turn > jump) {
-            log_.add(FindingKind::branch, place, turn / degree, turn, [&] {
+            log_.add(FindingKind::arm_configuration, place, turn / degree, turn, [&] {
                 return "axis " + std::to_string(axis + 1) + " jumps by " + fixed(turn / degree, 1) + " degrees";
             });
         }

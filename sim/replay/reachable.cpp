@@ -1,4 +1,4 @@
-// Heights of triangles at the middles of cells by barycentric coordinates; dilation and erosion tap by tap, whole rows
+// Heights of triangles at the centres of cells by barycentric coordinates; dilation and erosion tap by tap, whole rows
 // at a time.
 
 #include "sim/replay/reachable.h"
@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "sim/replay/stock/cutter.h"
-#include "sim/replay/stock/direction_frame.h"
+#include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
@@ -52,8 +52,8 @@ void rasterise(SurfaceMap& map, const std::array<Vec3, 3>& t) {
 }
 
 // The map of the target and of the floor below it, `around` wider than the target.
-SurfaceMap target_surface(const ReplayScene& scene, std::size_t direction, double cell, double around) {
-    SurfaceMap map{direction_frame(scene.directions[direction].out), 0, 0, cell, 0, 0, {}, false};
+SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, double cell, double around) {
+    SurfaceMap map{tool_axis_frame(scene.orientations[orientation].tool_axis), 0, 0, cell, 0, 0, {}, false};
     std::vector<Vec3> points = scene.target->points;
     for (Vec3& p : points) p = apply_inverse(map.frame_in_setup, p);
     Box box{points.front(), points.front()};
@@ -120,7 +120,7 @@ struct BodyDisc {
     double above = 0;
 };
 
-std::vector<BodyDisc> discs_of(const CarvingTool& tool, const Spindle& spindle) {
+std::vector<BodyDisc> discs_of(const CuttingTool& tool, const Spindle& spindle) {
     std::vector<BodyDisc> discs;
     double above = tool.stick_out;
     for (const HolderStep& step : tool.holder) discs.push_back({0.5 * step.diameter, above}), above += step.length;
@@ -130,7 +130,7 @@ std::vector<BodyDisc> discs_of(const CarvingTool& tool, const Spindle& spindle) 
 
 // Whether the body of a tool holds that of a finer one wherever the finer one touches what the tool touches: its ball
 // in the tool's ball, so that it stands up to the difference of their radii beside the tool, and no lower.
-bool holds_all_of(const CarvingTool& tool, const CarvingTool& finer, const Spindle& spindle) {
+bool holds_all_of(const CuttingTool& tool, const CuttingTool& finer, const Spindle& spindle) {
     const double beside = 0.5 * (tool.diameter - finer.diameter);
     const std::vector<BodyDisc> own = discs_of(tool, spindle);
     const std::vector<BodyDisc> discs = discs_of(finer, spindle);
@@ -142,7 +142,7 @@ bool holds_all_of(const CarvingTool& tool, const CarvingTool& finer, const Spind
 }
 
 // The ball-ended ones, the finest first; where there are none, all but drills.
-void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CarvingTool>& of_cell) {
+void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTool>& of_cell) {
     std::erase_if(tools, [&](std::size_t i) { return is_drill(of_cell[i]); });
     const auto is_ball = [&](std::size_t i) { return of_cell[i].shape == ToolShape::ball; };
     if (std::any_of(tools.begin(), tools.end(), is_ball)) std::erase_if(tools, std::not_fn(is_ball));
@@ -151,13 +151,13 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CarvingTo
 }
 
 // Raises tips to where flat discs above them, holder and spindle, are clear of the surface.
-void clear_holder(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, SurfaceMap& tips) {
+void clear_holder(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
     const std::vector<BodyDisc> discs = discs_of(tool, scene.cell->machine->spindle);
     const auto [lowest, highest] = std::minmax_element(tips.height.begin(), tips.height.end());
     const double depth = *highest - *lowest;  // before tips are raised
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;
-        SurfaceMap coarse = target_surface(scene, direction, holder_cell, radius);
+        SurfaceMap coarse = target_surface(scene, orientation, holder_cell, radius);
         coarse.height = morph(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell), 1);
         for (std::int32_t j = 0; j < tips.rows; ++j) {
             for (std::int32_t i = 0; i < tips.columns; ++i) {
@@ -201,15 +201,15 @@ double SurfaceMap::distance_above(Vec3 point, double most) const {
     return best;
 }
 
-SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, double cell,
+SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
                       const Context& context) {
     context.check_cancelled();
     const Cutter cutter = cutter_of(tool);
-    SurfaceMap map = target_surface(scene, direction, cell, 2 * cutter.radius + 2 * cell);
+    SurfaceMap map = target_surface(scene, orientation, cell, 2 * cutter.radius + 2 * cell);
     const std::vector<Tap> taps = taps_of(cutter, cell);
     map.height = morph(map, taps, 1);
     context.check_cancelled();
-    clear_holder(scene, direction, tool, map);
+    clear_holder(scene, orientation, tool, map);
     map.height = morph(map, taps, -1);
     return map;
 }
@@ -218,19 +218,19 @@ std::vector<StockTool> used_tools(const ReplayScene& scene) {
     std::vector<StockTool> used;
     if (scene.before != nullptr) used = scene.before->tools;
     for (const SceneChunk& chunk : scene.chunks) {
-        used.push_back({chunk.tool, static_cast<std::uint32_t>(chunk.direction)});
+        used.push_back({chunk.tool, static_cast<std::uint32_t>(chunk.orientation)});
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     return used;
 }
 
-std::size_t carving_directions(const ReplayScene& scene) {
-    return std::min(scene.drilling, scene.directions.size());
+std::size_t milling_orientations(const ReplayScene& scene) {
+    return std::min(scene.drilling, scene.orientations.size());
 }
 
 std::vector<std::size_t> allowed_tools(const ReplayScene& scene) {
-    const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
+    const std::vector<CuttingTool>& tools = scene.cell->machine->tools;
     std::vector<std::size_t> allowed;
     for (std::size_t i = 0; i < tools.size(); ++i) {
         const bool is_named = std::find(scene.tools.begin(), scene.tools.end(), tools[i].number) != scene.tools.end();
@@ -239,11 +239,11 @@ std::vector<std::size_t> allowed_tools(const ReplayScene& scene) {
     return allowed;
 }
 
-std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t direction) {
-    const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
+std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t orientation) {
+    const std::vector<CuttingTool>& tools = scene.cell->machine->tools;
     std::vector<std::size_t> along;
     for (const StockTool& used : used_tools(scene)) {
-        if (used.direction != direction) continue;
+        if (used.orientation != orientation) continue;
         for (std::size_t i = 0; i < tools.size(); ++i) {
             if (tools[i].number == used.tool) along.push_back(i);
         }
@@ -251,7 +251,7 @@ std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t direc
     return along;
 }
 
-std::vector<const Closing*> Closings::along(std::size_t direction, std::vector<std::size_t> tools,
+std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector<std::size_t> tools,
                                             const Context& context) {
     const CellMachine& machine = *scene_.cell->machine;
     keep_finishing(tools, machine.tools);
@@ -261,16 +261,16 @@ std::vector<const Closing*> Closings::along(std::size_t direction, std::vector<s
         const bool adds_nothing = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
             return holds_all_of(machine.tools[tool], machine.tools[finer->tool], machine.spindle);
         });
-        if (!adds_nothing) closings.push_back(&of(direction, tool, context));
+        if (!adds_nothing) closings.push_back(&of(orientation, tool, context));
     }
     return closings;
 }
 
-const Closing& Closings::of(std::size_t direction, std::size_t tool, const Context& context) {
-    const auto [found, is_new] = known_.try_emplace({direction, tool});
+const Closing& Closings::of(std::size_t orientation, std::size_t tool, const Context& context) {
+    const auto [found, is_new] = known_.try_emplace({orientation, tool});
     if (is_new) {
-        const CarvingTool& own = scene_.cell->machine->tools[tool];
-        found->second = {tool, direction, closing_of(scene_, direction, own, cell_, context)};
+        const CuttingTool& own = scene_.cell->machine->tools[tool];
+        found->second = {tool, orientation, closing_of(scene_, orientation, own, cell_, context)};
     }
     return found->second;
 }

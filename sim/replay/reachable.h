@@ -25,16 +25,16 @@ struct SurfaceMap {
     double cell = 1;
     std::int32_t columns = 0;
     std::int32_t rows = 0;
-    std::vector<float> height;  // at the middles of cells, row by row; -1e30: nothing
+    std::vector<float> height;  // at the centres of cells, row by row; -1e30: nothing
     bool is_limited = false;    // holder or spindle keep the tool higher somewhere
     double at(double x, double y) const;
     // Distance from a point of the frame to the nearest point above the surface, at most `most`; cells count at their
-    // middles.
+    // centres.
     double distance_above(Vec3 point, double most) const;
 };
 
 // The closing along a direction by a tool. Throws Cancelled.
-SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, double cell,
+SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
                       const Context& context);
 
 // The tools that the program uses along each direction, and those that parts before it used: ascending, each once.
@@ -42,8 +42,8 @@ std::vector<StockTool> used_tools(const ReplayScene& scene);
 
 // The closing by one tool along one direction.
 struct Closing {
-    std::size_t tool = 0;       // index in CellMachine::tools
-    std::size_t direction = 0;  // index in ReplayScene::directions
+    std::size_t tool = 0;         // index in CellMachine::tools
+    std::size_t orientation = 0;  // index in ReplayScene::orientations
     SurfaceMap map;
 };
 
@@ -56,21 +56,21 @@ class Closings {
     // its holder keeps it away, those by coarser ones whose holder does not. Others add nothing: a larger ball fits in
     // only where a smaller one does. Of tools of several shapes only the ball-ended ones count, which finish; where
     // none is, all but drills. Valid while this object lives. Throws Cancelled.
-    std::vector<const Closing*> along(std::size_t direction, std::vector<std::size_t> tools, const Context& context);
+    std::vector<const Closing*> along(std::size_t orientation, std::vector<std::size_t> tools, const Context& context);
 
  private:
-    const Closing& of(std::size_t direction, std::size_t tool, const Context& context);
+    const Closing& of(std::size_t orientation, std::size_t tool, const Context& context);
 
     const ReplayScene& scene_;
     double cell_;
     std::map<std::pair<std::size_t, std::size_t>, Closing> known_;  // by direction and tool
 };
 
-// How many of ReplayScene::directions, the first ones, are those of the setup, from which the target is to be carved.
-std::size_t carving_directions(const ReplayScene& scene);
+// How many of ReplayScene::orientations, the first ones, are those of the setup, from which the target is to be milled.
+std::size_t milling_orientations(const ReplayScene& scene);
 // What may be used: indices of the tools of the cell, but for those that the operator left out (ReplayScene::tools).
 std::vector<std::size_t> allowed_tools(const ReplayScene& scene);
 // Indices of those that the program uses along a direction, parts before included.
-std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t direction);
+std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t orientation);
 
 }  // namespace qchopper

@@ -21,17 +21,17 @@ void demand(bool holds, const char* what) {
 void check_scene(const ReplayScene& scene) {
     demand(scene.cell != nullptr && scene.cell->machine && scene.cell->machine->robot,
            "the cell file describes no robot");
-    demand(!scene.directions.empty(), "the job has no direction");
+    demand(!scene.orientations.empty(), "the job has no direction");
     demand(!scene.chunks.empty(), "the job names no program");
     const auto& tools = scene.cell->machine->tools;
     for (const std::uint16_t number : scene.tools) {
-        demand(std::any_of(tools.begin(), tools.end(), [&](const CarvingTool& t) { return t.number == number; }),
+        demand(std::any_of(tools.begin(), tools.end(), [&](const CuttingTool& t) { return t.number == number; }),
                "a tool that the operator allows is not in the cell file");
     }
     for (const SceneChunk& chunk : scene.chunks) {
-        demand(std::any_of(tools.begin(), tools.end(), [&](const CarvingTool& t) { return t.number == chunk.tool; }),
+        demand(std::any_of(tools.begin(), tools.end(), [&](const CuttingTool& t) { return t.number == chunk.tool; }),
                "a tool of the job is not in the cell file");
-        demand(chunk.direction < scene.directions.size(), "a direction of the job is not there");
+        demand(chunk.orientation < scene.orientations.size(), "a direction of the job is not there");
     }
     const Vec3 size = scene.block.size();
     demand(size.x > 0 && size.y > 0 && size.z > 0, "the block has no size");
@@ -51,34 +51,34 @@ double largest_rounding(const ToolPath& path) {
 }
 
 void judge_gouge(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
-    if (report.largest_gouge > options.most_gouge) {
+    if (report.largest_gouge > options.max_gouge) {
         log.add(FindingKind::gouge, report.gouge_place, report.largest_gouge, report.largest_gouge, [&] {
             return "the tool cuts " + fixed(report.largest_gouge, 3) + " mm into the piece, at " +
                    fixed(report.gouge_at.x, 1) + " " + fixed(report.gouge_at.y, 1) + " " + fixed(report.gouge_at.z, 1);
         });
     }
     const double beyond = report.volumes.beyond_mm3;
-    if (beyond <= options.most_beyond_mm3) return;
+    if (beyond <= options.max_beyond_mm3) return;
     log.add(FindingKind::gouge_volume, {}, beyond, beyond,
             [&] { return fixed(beyond, 1) + " mm3 of the piece are cut away beyond tolerance"; });
 }
 
 void judge_given_up(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
     const double share = report.share_given_up();
-    if (share <= options.most_given_up) return;
+    if (share <= options.max_given_up) return;
     const GivenUp& most = report.leftover.given_up.front();
     log.add(FindingKind::given_up, {}, share, share, [&] {
         return fixed(report.leftover.given_up_mm2() / 100, 1) + " cm2, " + fixed(100 * share, 2) +
                " % of the surface, keep foam that tools of the cell reach and the program gives up, most of it tool " +
-               std::to_string(most.tool) + " along direction " + std::to_string(most.direction + 1) + "; at most " +
-               fixed(100 * options.most_given_up, 2) +
+               std::to_string(most.tool) + " along direction " + std::to_string(most.orientation + 1) + "; at most " +
+               fixed(100 * options.max_given_up, 2) +
                " % may be given up, unless the operator names by --tools the tools that may be used";
     });
 }
 
 void judge_leftover(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
     const double share = report.share_within();
-    if (share < options.least_share) {
+    if (share < options.min_share) {
         log.add(FindingKind::leftover, {}, report.leftover.largest, 1 - share, [&] {
             return fixed(100 * share, 2) +
                    " % of the reachable surface are within tolerance, the most foam left on it is " +
@@ -86,7 +86,7 @@ void judge_leftover(const ReplayReport& report, const ReplayOptions& options, Fi
         });
     }
     const double standing = report.volumes.standing_mm3;
-    if (standing > options.most_standing_mm3) {
+    if (standing > options.max_standing_mm3) {
         const Vec3 at = report.volumes.standing_at;
         log.add(FindingKind::standing_foam, {}, standing, standing, [&] {
             return fixed(standing, 0) + " mm3 of foam stand beside the piece where the tools come to, at " +
@@ -96,14 +96,14 @@ void judge_leftover(const ReplayReport& report, const ReplayOptions& options, Fi
 }
 
 void judge_cuts(const ReplayReport& report, FindingLog& log) {
-    if (report.carving.cuts > 0) return;
+    if (report.milling.cuts > 0) return;
     log.add(FindingKind::no_cut, {}, 0, 0, [] { return "the program removes nothing"; });
 }
 
 double largest_radius(const ReplayScene& scene) {
     double radius = 0;
     for (const StockTool& used : used_tools(scene)) {
-        for (const CarvingTool& tool : scene.cell->machine->tools) {
+        for (const CuttingTool& tool : scene.cell->machine->tools) {
             if (tool.number == used.tool) radius = std::max(radius, 0.5 * tool.diameter);
         }
     }
@@ -129,26 +129,26 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     const ToolPath path = walk_machine(program, scene, log, context);
     report.time = time_of(path);
     report.largest_rounding = largest_rounding(path);
-    std::vector<Vec3> outs;
-    for (const SceneDirection& direction : scene.directions) outs.push_back(direction.out);
-    Foam foam(scene.block, outs, options.cell);
-    if (scene.before != nullptr) foam.start_from(*scene.before);
-    report.carving = carve_foam(foam, path, scene, options.is_worst, log, context);
+    std::vector<Vec3> tool_axes;
+    for (const SceneOrientation& orientation : scene.orientations) tool_axes.push_back(orientation.tool_axis);
+    StockModel stock_model(scene.block, tool_axes, options.cell);
+    if (scene.before != nullptr) stock_model.start_from(*scene.before);
+    report.milling = mill_stock(stock_model, path, scene, options.is_worst, log, context);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
     report.largest_gouge = gouges.largest;
     report.gouge_place = gouges.place;
     report.gouge_at = gouges.at;
-    if (scene.is_last) report.leftover = measure_leftover(foam, scene, gouges.depth, options.leftover, context);
-    const VolumeOptions volumes{options.volume_cell, 2 * largest_radius(scene), options.most_gouge,
+    if (scene.is_last) report.leftover = measure_leftover(stock_model, scene, gouges.depth, options.leftover, context);
+    const VolumeOptions volumes{options.volume_cell, 2 * largest_radius(scene), options.max_gouge,
                                 scene.scallop + options.leftover.too_much + options.cell};
-    report.volumes = measure_volumes(foam, scene, volumes, context);
+    report.volumes = measure_volumes(stock_model, scene, volumes, context);
     report.deviation = deviations(gouges, report.leftover);
     judge_gouge(report, options, log);
     if (scene.is_last) judge_given_up(report, options, log);
     if (scene.is_last) judge_leftover(report, options, log);
     judge_cuts(report, log);
     if (!scene.is_last) {
-        report.left = foam.stock();
+        report.left = stock_model.record();
         report.left.tools = used_tools(scene);
     }
     report.findings = log.findings();

@@ -1,4 +1,4 @@
-// The proof that a program carves its piece: the parsed program is executed on the arm of the cell, the foam is
+// The proof that a program mills its piece: the parsed program is executed on the arm of the cell, the foam is
 // removed, and what is left is compared with the piece.
 //
 // mm, seconds, setup coordinates. Gouge holds for exact and for rounded corners alike (gouge.h); what is left is that
@@ -13,9 +13,9 @@
 
 #include "base/context.h"
 #include "sim/program/parsed_program.h"
-#include "sim/replay/carve_foam.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/leftover.h"
+#include "sim/replay/mill_stock.h"
 #include "sim/replay/path_time.h"
 #include "sim/replay/scene.h"
 #include "sim/replay/volumes.h"
@@ -23,14 +23,14 @@
 namespace qchopper {
 
 struct ReplayOptions {
-    double cell = 0.25;            // of the foam; figures are claimed up to 0.25
-    bool is_worst = true;          // corners that may be rounded are
-    double gouge_floor = 0.01;     // gouges up to this are not told from none
-    double most_gouge = 0.25;      // a deeper one is a finding
-    double most_beyond_mm3 = 1;    // more volume gouged deeper than that is a finding
-    double least_share = 0.995;    // of the reachable surface within tolerance
-    double most_given_up = 0.005;  // of the surface, where nobody ordered it
-    double most_standing_mm3 = 100;
+    double cell = 0.25;           // of the foam; figures are claimed up to 0.25
+    bool is_worst = true;         // corners that may be rounded are
+    double gouge_floor = 0.01;    // gouges up to this are not told from none
+    double max_gouge = 0.25;      // a deeper one is a finding
+    double max_beyond_mm3 = 1;    // more volume gouged deeper than that is a finding
+    double min_share = 0.995;     // of the reachable surface within tolerance
+    double max_given_up = 0.005;  // of the surface, where nobody ordered it
+    double max_standing_mm3 = 100;
     LeftoverOptions leftover;
     double volume_cell = 0.5;
 };
@@ -45,16 +45,16 @@ struct ReplayReport {
     double largest_rounding = 0;  // deviation of a rounded corner from its point
     VolumeFigures volumes;
     LeftoverFigures leftover;  // of the last part: the piece must be there after it
-    CarveFigures carving;
+    MillingFigures milling;
     PathTime time;
     // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
     std::vector<float> deviation;
-    CarvedStock left;  // after every part but the last
+    StockRecord left;  // after every part but the last
     // Of what is not given up.
     double share_within() const { return ratio(leftover.within_mm2, leftover.reachable_mm2 - leftover.given_up_mm2()); }
     double share_given_up() const { return ratio(leftover.given_up_mm2(), leftover.area_mm2); }
     double share_reachable() const { return ratio(leftover.reachable_mm2, leftover.area_mm2); }
-    double share_air() const { return ratio(carving.air_mm, carving.feed_mm); }
+    double share_air() const { return ratio(milling.air_mm, milling.feed_mm); }
     static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 };
 

@@ -16,20 +16,20 @@
 #include "base/pose.h"
 #include "cam/cell/cell.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "sim/replay/stock/stock.h"
+#include "sim/replay/stock/stock_record.h"
 
 namespace qchopper {
 
-struct SceneDirection {
-    Vec3 out{0, 0, 1};       // unit vector along which the tool comes out
-    double table_angle = 0;  // of the rotary table while it is carved
-    Pose setup_in_cell;      // at that angle
+struct SceneOrientation {
+    Vec3 tool_axis{0, 0, 1};  // unit vector along which the tool comes out
+    double table_angle = 0;   // of the rotary table while it is milled
+    Pose setup_in_cell;       // at that angle
 };
 
 struct SceneChunk {
-    std::string name;           // of its .src, without ending
-    std::uint16_t tool = 1;     // CarvingTool::number
-    std::size_t direction = 0;  // index in ReplayScene::directions
+    std::string name;             // of its .src, without ending
+    std::uint16_t tool = 1;       // CuttingTool::number
+    std::size_t orientation = 0;  // index in ReplayScene::orientations
 };
 
 // A hole for a dowel, as the job states it.
@@ -45,7 +45,7 @@ struct SceneHole {
 
 struct ReplayScene {
     const Cell* cell = nullptr;  // with a machine and a robot
-    std::vector<SceneDirection> directions;
+    std::vector<SceneOrientation> orientations;
     std::size_t drilling = std::numeric_limits<std::size_t>::max();  // directions from this index on are only drilled
     std::vector<SceneChunk> chunks;                                  // in the order in which they are called
     Box block;                                                       // as it stands before the program
@@ -56,7 +56,7 @@ struct ReplayScene {
     double start_table_angle = 0;          // the joints at the start are CellMachine::start
     // Of a program in parts, each replayed for itself: what the part before left, nullptr for the first; and whether
     // the piece must be there after this one.
-    const CarvedStock* before = nullptr;
+    const StockRecord* before = nullptr;
     bool is_last = true;
     std::vector<SceneHole> holes = {};  // all of the piece
     // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.

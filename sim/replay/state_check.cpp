@@ -91,8 +91,9 @@ void StateCheck::check_tool_frame(const ModalState& state, const MoveContext& mo
 void StateCheck::check_base_frame(const ModalState& state, const MoveContext& move) {
     const Pose said = pose_of(*state.base);
     const bool turns = machine_.rotary_table.has_value();
-    const Pose wanted = turns ? setup_in_table_
-                              : inverse(machine_.robot->base_in_cell) * scene_.directions[move.direction].setup_in_cell;
+    const Pose wanted =
+        turns ? setup_in_table_
+              : inverse(machine_.robot->base_in_cell) * scene_.orientations[move.orientation].setup_in_cell;
     const double off = norm(said.shift - wanted.shift);
     const double turn = turn_between(said, wanted).angle;
     const std::uint32_t machine = turns ? static_cast<std::uint32_t>(machine_.rotary_table->external_axis) + 1 : 0;
@@ -107,7 +108,7 @@ void StateCheck::check_load(const ModalState& state, const MoveContext& move) {
     const CarriedLoad stated = state.load ? carried_load(*state.load) : CarriedLoad{};
     CarriedLoad nearest;
     double least = std::numeric_limits<double>::infinity();
-    for (const CarvingTool& tool : machine_.tools) {
+    for (const CuttingTool& tool : machine_.tools) {
         if (move.tool != nullptr && move.tool != &tool) continue;
         const CarriedLoad expected = carried_load(machine_.spindle, tool);
         const double off = tolerances_between(stated, expected, machine_.load_tolerance);

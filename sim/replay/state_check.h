@@ -17,8 +17,8 @@ namespace qchopper {
 // Where a move stands, and with what.
 struct MoveContext {
     std::uint32_t chunk = 0;            // index in ReplayScene::chunks
-    std::uint32_t direction = 0;        // index in ReplayScene::directions
-    const CarvingTool* tool = nullptr;  // nullptr: outside of chunks, where the load of any tool may be stated
+    std::uint32_t orientation = 0;      // index in ReplayScene::orientations
+    const CuttingTool* tool = nullptr;  // nullptr: outside of chunks, where the load of any tool may be stated
     std::uint32_t state = 0;            // index in ParsedProgram::states
     SourcePlace place;
 };

@@ -26,9 +26,9 @@ struct TipLine {
     Vec3 from;
     Vec3 to;
     SourcePlace place;
-    std::uint32_t chunk = 0;      // index in ReplayScene::chunks
-    std::uint32_t tool = 0;       // index in CellMachine::tools
-    std::uint32_t direction = 0;  // index in ReplayScene::directions
+    std::uint32_t chunk = 0;        // index in ReplayScene::chunks
+    std::uint32_t tool = 0;         // index in CellMachine::tools
+    std::uint32_t orientation = 0;  // index in ReplayScene::orientations
     double feed = 0;
     double acceleration = 0;
     double rounding = 0;        // of the corner at its end; 0: it is exact
@@ -41,7 +41,7 @@ struct TipLine {
 // The tool on the way of a joint move.
 struct TipPose {
     Vec3 tip;
-    Vec3 out;  // unit vector from the tip into the spindle
+    Vec3 tool_axis;  // unit vector from the tip into the spindle
 };
 
 struct JointSweep {

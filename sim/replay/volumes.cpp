@@ -40,7 +40,7 @@ Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
     const Vec3 most{std::min(box.max.x + options.around, scene.block.max.x),
                     std::min(box.max.y + options.around, scene.block.max.y), 0};
     const double cell = options.cell;
-    // Middles of cells as in foam.h, moved by less than half a thousandth of a cell.
+    // Middles of cells as in stock_model.h, moved by less than half a thousandth of a cell.
     Grid grid{std::floor(least.x / cell) * cell + 0.000314159 * cell,
               std::floor(least.y / cell) * cell + 0.000271828 * cell, cell, 0, 0};
     grid.columns = static_cast<std::int32_t>(std::ceil((most.x - grid.x_min) / cell));
@@ -134,10 +134,10 @@ class Zone {
 };
 
 // Parts of `from` that lie in none of `without`; both ascending and apart.
-std::vector<FoamInterval> difference(const std::vector<FoamInterval>& from, const std::vector<FoamInterval>& without) {
-    std::vector<FoamInterval> left;
-    for (FoamInterval i : from) {
-        for (const FoamInterval& w : without) {
+std::vector<Dexel> difference(const std::vector<Dexel>& from, const std::vector<Dexel>& without) {
+    std::vector<Dexel> left;
+    for (Dexel i : from) {
+        for (const Dexel& w : without) {
             if (w.high <= i.low || w.low >= i.high) continue;
             if (w.low > i.low) left.push_back({i.low, w.low});
             i.low = w.high;
@@ -150,8 +150,9 @@ std::vector<FoamInterval> difference(const std::vector<FoamInterval>& from, cons
 
 class Measuring {
  public:
-    Measuring(const Foam& foam, const ReplayScene& scene, const VolumeOptions& options, const Context& context)
-        : foam_(foam),
+    Measuring(const StockModel& stock_model, const ReplayScene& scene, const VolumeOptions& options,
+              const Context& context)
+        : stock_model_(stock_model),
           scene_(scene),
           options_(options),
           grid_(grid_over(scene, options)),
@@ -159,7 +160,7 @@ class Measuring {
           tree_(*scene.target),
           holes_(scene),
           known_(scene, closing_cell) {
-        for (std::size_t d = 0; d < carving_directions(scene); ++d) {
+        for (std::size_t d = 0; d < milling_orientations(scene); ++d) {
             for (const Closing* closing : known_.along(d, allowed_tools(scene), context)) closings_.push_back(closing);
         }
         by_row_.resize(static_cast<std::size_t>(grid_.rows));
@@ -176,10 +177,10 @@ class Measuring {
 
  private:
     static constexpr double closing_cell = 1;
-    void add_line(double x, double y, const std::vector<FoamInterval>& target, VolumeFigures& sum) const;
+    void add_line(double x, double y, const std::vector<Dexel>& target, VolumeFigures& sum) const;
     bool stands(Vec3 p) const;
 
-    const Foam& foam_;
+    const StockModel& stock_model_;
     const ReplayScene& scene_;
     const VolumeOptions& options_;
     Grid grid_;
@@ -198,7 +199,7 @@ VolumeFigures Measuring::of_row(std::int32_t row) const {
     }
     std::sort(crossings.begin(), crossings.end());
     VolumeFigures sum;
-    std::vector<FoamInterval> target;
+    std::vector<Dexel> target;
     std::size_t next = 0;
     for (std::int32_t i = 0; i < grid_.columns; ++i) {
         target.clear();
@@ -222,17 +223,18 @@ bool Measuring::stands(Vec3 p) const {
     return is_reached && !tree_.is_any_nearer(*scene_.target, p, options_.standing);
 }
 
-void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& target, VolumeFigures& sum) const {
+void Measuring::add_line(double x, double y, const std::vector<Dexel>& target, VolumeFigures& sum) const {
     const double area = grid_.cell * grid_.cell;
     const double step = std::max(options_.gouge_tolerance, 0.25);
-    const std::vector<FoamInterval> foam = foam_.on_line({x, y, 0}, {0, 0, 1}, scene_.block.min.z, scene_.block.max.z);
-    const auto parts = [&](const FoamInterval& i, const auto& visit) {
+    const std::vector<Dexel> stock_model =
+        stock_model_.on_line({x, y, 0}, {0, 0, 1}, scene_.block.min.z, scene_.block.max.z);
+    const auto parts = [&](const Dexel& i, const auto& visit) {
         const auto count = static_cast<int>(std::ceil((i.high - i.low) / step));
         for (int k = 0; k < count; ++k) {
             visit(Vec3{x, y, i.low + (k + 0.5) * (i.high - i.low) / count}, area * (i.high - i.low) / count);
         }
     };
-    for (FoamInterval i : difference(foam, target)) {
+    for (Dexel i : difference(stock_model, target)) {
         i.low = std::max(i.low, 0.0);
         if (i.low >= i.high) continue;
         sum.leftover_mm3 += area * (i.high - i.low);
@@ -242,7 +244,7 @@ void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& ta
             sum.standing_at = p;
         });
     }
-    for (const FoamInterval& i : difference(target, foam)) {
+    for (const Dexel& i : difference(target, stock_model)) {
         if (holes_.is_empty()) sum.gouge_mm3 += area * (i.high - i.low);
         parts(i, [&](Vec3 p, double volume) {
             if (!holes_.is_empty()) {
@@ -256,9 +258,9 @@ void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& ta
 
 }  // namespace
 
-VolumeFigures measure_volumes(const Foam& foam, const ReplayScene& scene, const VolumeOptions& options,
+VolumeFigures measure_volumes(const StockModel& stock_model, const ReplayScene& scene, const VolumeOptions& options,
                               const Context& context) {
-    const Measuring measuring(foam, scene, options, context);
+    const Measuring measuring(stock_model, scene, options, context);
     std::vector<VolumeFigures> rows(static_cast<std::size_t>(measuring.rows()));
     constexpr std::size_t lot = 128;
     for (std::size_t first = 0; first < rows.size(); first += lot) {

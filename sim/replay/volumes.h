@@ -1,13 +1,13 @@
-// Volumes between what is left of the foam and the target, on vertical lines through the middles of square cells.
+// Volumes between what is left of the foam and the target, on vertical lines through the centres of square cells.
 //
 // mm3. Along each line both are intervals, exact but for rounding. O(lines * (crossings + maps))
-// (tests/sim/replay/stock/foam_test.cpp).
+// (tests/sim/replay/stock/stock_model_test.cpp).
 
 #pragma once
 
 #include "base/context.h"
 #include "sim/replay/scene.h"
-#include "sim/replay/stock/foam.h"
+#include "sim/replay/stock/stock_model.h"
 
 namespace qchopper {
 
@@ -27,7 +27,7 @@ struct VolumeFigures {
 };
 
 // Throws Cancelled.
-VolumeFigures measure_volumes(const Foam& foam, const ReplayScene& scene, const VolumeOptions& options,
+VolumeFigures measure_volumes(const StockModel& stock_model, const ReplayScene& scene, const VolumeOptions& options,
                               const Context& context);
 
 }  // namespace qchopper

@@ -86,7 +86,7 @@ PLANTED = {
         '#include "cam/cell/cell.h"',
         "sim/program sees only a part of cam",
     ),
-    "dispatch sees cli": ("app/dispatch/hand_over.cpp", '#include "app/cli/exit_code.h"', "app/cli comes after"),
+    "dispatch sees cli": ("app/dispatch/dispatch_jobs.cpp", '#include "app/cli/exit_code.h"', "app/cli comes after"),
     "two folders see each other": (
         "sim/program/krl_line.cpp",
         '#include "sim/replay/turn.h"',

@@ -20,6 +20,10 @@ class Words(unittest.TestCase):
             'throw InputError("the oracle is hopeless");': "hopeless",
             "class PieceBook;": "piece_book",
             "| straight ways | |": "straight_ways",
+            "class FoamMap {": "foam_map",
+            "HeightField tip_surface(const HeightField& piece);": "tip_surface",
+            "// the joint ways of a section": "joint_ways",
+            "enum class StartVerdict { started };": "start_verdict",
         }.items():
             self.assertIn(word, refused_in(line), line)
 

@@ -153,8 +153,8 @@ void expect_one_start(const CellStep& step) {
         EXPECT_EQ(ran.out.find("UNKNOWN"), std::string::npos) << point << "\n" << ran.out;
         // "NOT STARTED" is right for a file that was carved before, by the job that was started then.
         const bool says_started = ran.out.find("\nSTARTED|") != std::string::npos || ran.out.starts_with("STARTED|");
-        const bool says_carved = ran.out.find("|0|1\n") != std::string::npos;
-        EXPECT_TRUE(says_started || says_carved) << point << "\n" << ran.out;
+        const bool says_milled = ran.out.find("|0|1\n") != std::string::npos;
+        EXPECT_TRUE(says_started || says_milled) << point << "\n" << ran.out;
         EXPECT_EQ(read_journal(trial.state()).rows.back().event.kind, JournalKind::closed) << point;
         const Ran again = trial.dispatch("");
         EXPECT_EQ(trial.cell().status().starts_total, 1U) << point << "\n" << again.out;

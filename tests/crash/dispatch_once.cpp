@@ -2,7 +2,7 @@
 //
 //   dispatch_once PORT STATE_FOLDER DROP_FOLDER [POINT [COUNT]]
 //
-// Takes up what an earlier run left in the journal, then hands over one job, whose file is always the same. Prints the
+// Takes up what an earlier run left in the journal, then dispatches one job, whose file is always the same. Prints the
 // verdict of each hand-off, its job id, and STARTS. At the COUNT-th time (1) that POINT is passed it kills itself; the
 // point "?" prints every point instead. Only this test program has such points: in the released program the hook is
 // empty.
@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "devices/hand_off/journal_history.h"
 #include "devices/journal/journal.h"
 #include "devices/wire/modbus_tcp.h"
@@ -41,10 +41,10 @@ int run(int argc, char** argv) {
     piece_job.piece = "A";
     piece_job.file = job.file;
     piece_job.ticket = job.ticket;
-    const std::vector<HandedOver> handed = hand_over({piece_job}, bus, options, journal, ProjectContext{});
-    for (const HandedOver& one : handed) {
-        std::printf("%s|%s|%d|%d\n", describe(one.outcome.verdict), to_text(one.outcome.job_id).c_str(),
-                    one.outcome.is_complete() ? 1 : 0, one.outcome.carved_before ? 1 : 0);
+    const std::vector<DispatchedJob> handed = dispatch_jobs({piece_job}, bus, options, journal, ProjectContext{});
+    for (const DispatchedJob& one : handed) {
+        std::printf("%s|%s|%d|%d\n", describe(one.outcome.start_outcome), to_text(one.outcome.job_id).c_str(),
+                    one.outcome.is_complete() ? 1 : 0, one.outcome.milled_before ? 1 : 0);
     }
     return 0;
 }

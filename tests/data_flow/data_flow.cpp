@@ -10,8 +10,8 @@
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
+#include "cam/setup/stock_fit.h"
 #include "devices/hand_off/dispatch.h"
 #include "devices/wire/modbus_tcp.h"
 #include "segment/io/read_mesh.h"
@@ -103,8 +103,8 @@ std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Importe
         ++input.piece_no;
         input.piece = piece;
         input.setup = choose_setup(piece, cell).setups.front();
-        input.envelope = check_envelope(input.setup, cell);
-        EXPECT_TRUE(input.envelope.fits()) << describe_envelope(piece.name, input.envelope);
+        input.stock_fit = check_stock_fit(input.setup, cell);
+        EXPECT_TRUE(input.stock_fit.fits()) << describe_stock_fit(piece.name, input.stock_fit);
         const Bytes bytes = job_file(input);
         EXPECT_EQ(bytes, job_file(input)) << "same input, same bytes";
         jobs.push_back({piece.name, folder / job_file_name(piece.name)});
@@ -139,7 +139,7 @@ void run_jobs(const std::vector<PieceJob>& jobs, const Cell& cell, const fs::pat
         const JobTicket ticket = job_ticket(parse_job(file, job.file.string()), job.file.filename().string());
         EXPECT_EQ(ticket.about.piece, job.piece);
         const JobOutcome outcome = dispatch_job(bus, ticket, file, dispatch, {});
-        EXPECT_EQ(outcome.verdict, StartVerdict::started) << job.piece << ": " << outcome.why;
+        EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << job.piece << ": " << outcome.why;
         EXPECT_EQ(outcome.job_state, JobState::ended) << outcome.why;
         EXPECT_EQ(outcome.job_result, JobResult::complete);
         EXPECT_TRUE(outcome.starts_known);

@@ -31,7 +31,7 @@ CellSteps::CellSteps() {
 }
 
 void CellSteps::run(Input& input) {
-    for (std::size_t n = 0; n < most_steps && !input.is_empty(); ++n) {
+    for (std::size_t n = 0; n < max_steps && !input.is_empty(); ++n) {
         const bool was_active = cell_.job.is_active();
         step(input);
         restart_after_cut();
@@ -50,7 +50,7 @@ void CellSteps::step(Input& input) {
             return write(command_block.base, encode(chosen_command(input)));
         case Step::ticket:
             return write_ticket(input);
-        case Step::beat: {
+        case Step::heartbeat: {
             const std::uint32_t owner = owners[input.u8() % 3];
             return write(heartbeat_block.base, encode(Heartbeat{cell_.memory.epoch_held, owner, input.u8()}));
         }

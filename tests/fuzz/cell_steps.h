@@ -14,15 +14,15 @@
 namespace qchopper {
 
 enum class Step : std::uint8_t {
-    raw,      // length, PDU
-    command,  // the choices of chosen_command
-    ticket,   // number of changes, each index and two bytes of a word; its checksum is right
-    beat,     // owner, counter
-    chunk,    // offset (2), length, right or not
-    time,     // hundredths of a second (2)
-    file,     // how the file was found
-    consent,  // yes or no
-    zeros,    // which block
+    raw,        // length, PDU
+    command,    // the choices of chosen_command
+    ticket,     // number of changes, each index and two bytes of a word; its checksum is right
+    heartbeat,  // owner, counter
+    chunk,      // offset (2), length, right or not
+    time,       // hundredths of a second (2)
+    file,       // how the file was found
+    consent,    // yes or no
+    zeros,      // which block
     power_cut,
     disk,   // can it be written from now on
     panel,  // what a person does
@@ -38,7 +38,7 @@ class CellSteps {
     void run(Input& input);
     std::uint32_t starts() const { return cell_.memory.starts_total; }
 
-    static constexpr std::size_t most_steps = 300;
+    static constexpr std::size_t max_steps = 300;
 
  private:
     void step(Input& input);

@@ -65,8 +65,8 @@ void try_registers(unsigned which, unsigned bit, const Registers& registers) {
         case 3:
             return try_block(ticket_block, "CRC", registers, bit, decode_ticket, as_it_is);
         case 4: {
-            const Decoded<Heartbeat> beat = decode_heartbeat(registers);
-            if (beat.is_ok()) demand(encode(beat.value) == registers);
+            const Decoded<Heartbeat> heartbeat = decode_heartbeat(registers);
+            if (heartbeat.is_ok()) demand(encode(heartbeat.value) == registers);
             return;
         }
         case 6:

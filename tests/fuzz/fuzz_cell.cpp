@@ -21,7 +21,7 @@ void demand_possible(const Robot& robot) {
 void demand_possible(const CellMachine& machine) {
     if (machine.robot) demand_possible(*machine.robot);
     demand(!machine.tools.empty() && machine.max_unreachable >= 0 && machine.max_unreachable <= 1);
-    for (const CarvingTool& tool : machine.tools) {
+    for (const CuttingTool& tool : machine.tools) {
         demand(tool.diameter > 0 && tool.flute_length <= tool.stick_out && gauge_length(tool) > tool.stick_out);
         demand(tool.feed_min_mm_per_s < tool.feed_max_mm_per_s && tool.rpm_min < tool.rpm_max);
         demand(tool.corner_radius >= 0 && 2 * tool.corner_radius <= tool.diameter);
@@ -32,9 +32,9 @@ void demand_possible(const Cell& cell) {
     if (cell.machine) demand_possible(*cell.machine);
     check_cell(cell);
     demand(!cell.name.empty() && cell.id >= 1 && !cell.stock.empty());
-    for (int axis = 0; axis < 3; ++axis) demand(cell.reach.min[axis] < cell.reach.max[axis]);
+    for (int axis = 0; axis < 3; ++axis) demand(cell.workspace.min[axis] < cell.workspace.max[axis]);
     demand(cell.table.size_x > 0 && cell.table.size_y > 0);
-    demand(cell.table.height >= cell.reach.min.z && cell.table.height < cell.reach.max.z);
+    demand(cell.table.height >= cell.workspace.min.z && cell.table.height < cell.workspace.max.z);
     for (const Stock& block : cell.stock) {
         for (int axis = 0; axis < 3; ++axis) demand(block.size[axis] > 0 && std::isfinite(block.size[axis]));
         demand(!block.name.empty());

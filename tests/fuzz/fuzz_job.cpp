@@ -45,9 +45,9 @@ void try_job(const Bytes& bytes) {
             demand(sha256(job.files.at(entry.name)) == entry.sha256);
         }
         demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block.size);
-        demand(!job.envelope.margins.empty());
+        demand(!job.stock_fit.margins.empty());
         demand(job.max_unreachable >= 0 && job.max_unreachable <= 1);
-        demand(job.setup.reach.unreachable_mm2() >= 0);
+        demand(job.setup.access.unreachable_mm2() >= 0);
         try {  // it was read from a text, so its own text must be readable
             demand(ticket_template_from_json(to_json(job.ticket), "fuzz") == job.ticket);
         } catch (const InputError&) {

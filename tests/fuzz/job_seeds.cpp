@@ -42,15 +42,15 @@ JobInput some_job() {
     cap.names_at = {{0, 0}};
     cap.size = {20, 10};
     input.caps = {cap};
-    SurfaceReach& reach = input.setup.reach;
-    reach.method = ReachMethod::mapped;
-    reach.directions = {{{0, 0, 1}, 0, 0.75, 20}};
-    reach.further = SetupDirection{{0, 1, 0}, 90, 0.125, 10};
-    reach.area_mm2 = 600;
-    reach.hidden_mm2 = 30;
-    reach.foam_mm3 = 1000;
+    SurfaceAccess& access = input.setup.access;
+    access.method = AccessMethod::mapped;
+    access.orientations = {{{0, 0, 1}, 0, 0.75, 20}};
+    access.further = ToolOrientation{{0, 1, 0}, 90, 0.125, 10};
+    access.area_mm2 = 600;
+    access.hidden_mm2 = 30;
+    access.foam_mm3 = 1000;
     input.alternatives = {input.setup};
-    input.envelope.margins = {{"piece in block, height", "too high", 42}};
+    input.stock_fit.margins = {{"piece in block, height", "too high", 42}};
     input.warnings = {"scaled by 0.5 on request"};
     return input;
 }

@@ -65,7 +65,7 @@ Bytes whole_job(std::uint8_t choice) {
     add(steps, CellCommand::start);
     add(steps, CellCommand::query);
     for (std::uint8_t n = 1; n < 10; ++n) {
-        steps.insert(steps.end(), {of(Step::beat), 0, n});
+        steps.insert(steps.end(), {of(Step::heartbeat), 0, n});
         pass(steps, 200);
     }
     add(steps, CellCommand::hold);

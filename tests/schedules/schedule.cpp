@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "base/error.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/hand_off/journal_history.h"
@@ -94,9 +94,9 @@ PieceJob make_piece(int number) {
 class OldJournal {
  public:
     OldJournal(fs::path folder, std::uint64_t seed, bool is_allowed) : folder_(std::move(folder)), random_(seed) {
-        constexpr int most_events = 60;
+        constexpr int max_events = 60;
         const bool happens = next_random(random_) % 2 == 0;
-        if (is_allowed && happens) events_left_ = 1 + static_cast<int>(next_random(random_) % most_events);
+        if (is_allowed && happens) events_left_ = 1 + static_cast<int>(next_random(random_) % max_events);
     }
 
     void after_event() {
@@ -210,16 +210,16 @@ class Pc {
         ProjectContext context;
         context.cancelled = &cancelled_;
         context.on_message = [this](const std::string& line) { say(line); };
-        const std::vector<HandedOver> handed = hand_over(open_, link, options(), journal, context);
+        const std::vector<DispatchedJob> handed = dispatch_jobs(open_, link, options(), journal, context);
         bool store_is_lost = false;
-        for (const HandedOver& one : handed) {
+        for (const DispatchedJob& one : handed) {
             judge(one.outcome);
             store_is_lost = store_is_lost || one.outcome.store_is_lost ||
                             one.outcome.to_do.find("accept-store") != std::string::npos;
             for (std::size_t i = 0; i < open_.size(); ++i) {
                 if (open_[i].piece != one.piece) continue;
-                if (one.outcome.may_be_carved) look_at(open_[i]);
-                const bool has_word = one.outcome.verdict == StartVerdict::started || one.outcome.carved_before ||
+                if (one.outcome.may_be_milled) look_at(open_[i]);
+                const bool has_word = one.outcome.start_outcome == StartOutcome::started || one.outcome.milled_before ||
                                       has_said_unknown(open_[i]);
                 if (!has_word) continue;
                 open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -232,13 +232,13 @@ class Pc {
     // The report agrees with what really started.
     void judge(const JobOutcome& outcome) {
         const int starts = world_.starts_of(outcome.job_id);
-        end_.said_started += outcome.verdict == StartVerdict::started ? 1 : 0;
-        end_.said_not_started += outcome.verdict == StartVerdict::not_started ? 1 : 0;
-        end_.said_unknown += outcome.verdict == StartVerdict::unknown ? 1 : 0;
-        const bool is_wrong = (outcome.verdict == StartVerdict::started && starts != 1) ||
-                              (outcome.verdict == StartVerdict::not_started && starts != 0);
+        end_.said_started += outcome.start_outcome == StartOutcome::started ? 1 : 0;
+        end_.said_not_started += outcome.start_outcome == StartOutcome::not_started ? 1 : 0;
+        end_.said_unknown += outcome.start_outcome == StartOutcome::unknown ? 1 : 0;
+        const bool is_wrong = (outcome.start_outcome == StartOutcome::started && starts != 1) ||
+                              (outcome.start_outcome == StartOutcome::not_started && starts != 0);
         if (is_wrong) {
-            say("WRONG REPORT: " + std::string(describe(outcome.verdict)) + " of job " + to_text(outcome.job_id) +
+            say("WRONG REPORT: " + std::string(describe(outcome.start_outcome)) + " of job " + to_text(outcome.job_id) +
                 ", starts " + std::to_string(starts));
             ++end_.wrong_reports;
         }
@@ -337,12 +337,12 @@ void judge_end(const World& world, const std::vector<std::unique_ptr<Pc>>& pcs, 
             if (starts > 1) ++end.double_starts;
         }
         for (const JobOutcome& report : pc->reports()) {
-            if (report.verdict == StartVerdict::not_started && world.starts_of(report.job_id) != 0) {
+            if (report.start_outcome == StartOutcome::not_started && world.starts_of(report.job_id) != 0) {
                 ++end.wrong_reports;
             }
         }
     }
-    if (world.most_starts_of_a_job() > 1 || !world.count_is_right()) ++end.double_starts;
+    if (world.max_starts_of_a_job() > 1 || !world.count_is_right()) ++end.double_starts;
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ int World::starts_of(const Sha256& file) const {
     return found == file_starts_.end() ? 0 : found->second;
 }
 
-int World::most_starts_of_a_job() const {
+int World::max_starts_of_a_job() const {
     int most = 0;
     for (const auto& [id, starts] : starts_) most = std::max(most, starts);
     return most;

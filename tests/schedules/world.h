@@ -54,7 +54,7 @@ class World {
     // The judge.
     int starts_of(const Uuid& job) const;
     int starts_of(const Sha256& file) const;
-    int most_starts_of_a_job() const;
+    int max_starts_of_a_job() const;
     bool count_is_right() const { return count_is_right_; }  // STARTS_TOTAL always was the number of started jobs
 
     CellState& cell() { return cell_; }

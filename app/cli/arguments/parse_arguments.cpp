@@ -16,7 +16,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_edits = 2;  // between a misspelt word and the one that is suggested
+constexpr std::size_t max_edits = 2;  // between a misspelt word and the one that is suggested
 
 const CLI::App* command_named(const CLI::App& app, const std::string& name) {
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -28,7 +28,7 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
 // The name in `known` nearest to a misspelt one, as a question; empty: none is near.
 std::string suggestion(const std::string& misspelt, const std::vector<std::string>& known) {
     std::string nearest;
-    std::size_t least = most_edits + 1;
+    std::size_t least = max_edits + 1;
     for (const std::string& name : known) {
         const std::size_t edits = edit_distance(name, misspelt);
         if (edits < least) {

@@ -26,8 +26,8 @@ std::vector<Plane> plane_list(std::string_view text, const std::string& name) {
             throw InputError(InputFault::config, where + ": not a plane nx,ny,nz,d",
                              "write a direction of any length but 0, and the distance along it in mm");
         }
-        if (planes.size() == most_planes) {
-            throw InputError(InputFault::config, where + ": more than " + std::to_string(most_planes) + " planes",
+        if (planes.size() == max_planes) {
+            throw InputError(InputFault::config, where + ": more than " + std::to_string(max_planes) + " planes",
                              "keep those that matter");
         }
         planes.push_back(canonical(*plane));

@@ -14,10 +14,10 @@
 
 namespace qchopper {
 
-constexpr std::size_t most_planes = 1'000;
+constexpr std::size_t max_planes = 1'000;
 
 // Canonical. Throws InputError (config), with the number of the line: a line that is no plane, no plane at all, more
-// than most_planes. Throws also what read_file throws.
+// than max_planes. Throws also what read_file throws.
 std::vector<Plane> planes_of_file(const std::filesystem::path& file);
 
 }  // namespace qchopper

@@ -140,8 +140,8 @@ ImportOptions import_options_of(const RepairArguments& a) {
     choices.resolve_self_intersections = !a.keep_self_intersections;
     RepairOptions& repair = options.repair;
     repair = options_of(choices);
-    repair.pen_grooves.most_width = a.groove_width.value_or(repair.pen_grooves.most_width);
-    repair.pen_grooves.most_depth = a.groove_depth.value_or(repair.pen_grooves.most_depth);
+    repair.pen_grooves.max_width = a.groove_width.value_or(repair.pen_grooves.max_width);
+    repair.pen_grooves.max_depth = a.groove_depth.value_or(repair.pen_grooves.max_depth);
     for (const auto& [name, step] : skippable_steps) {
         repair.*step = std::find(a.skipped.begin(), a.skipped.end(), name) == a.skipped.end();
     }

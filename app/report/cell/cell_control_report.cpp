@@ -9,7 +9,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "base/uuid.h"
-#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/operator_text.h"
 
 namespace qchopper {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "app/report/cell/cell_report.h"
-#include "app/report/work_envelope_report.h"
+#include "app/report/machine_reachability_report.h"
 #include "app/store/value_json.h"
 
 namespace qchopper {
@@ -77,7 +77,7 @@ Json rotary_table_json(const RotaryTable& table) {
             {"external_axis", table.external_axis}};
 }
 
-Json tool_json(const CarvingTool& tool) {
+Json tool_json(const CuttingTool& tool) {
     return {{"number", tool.number},
             {"name", tool.name},
             {"shape", to_word(tool.shape)},
@@ -178,7 +178,7 @@ std::string document(const ShownCell& shown) {
                  {"version", version},
                  {"name", cell.name},
                  {"id", cell.id},
-                 {"reach", box_json(cell.reach)},
+                 {"reach", box_json(cell.workspace)},
                  {"table",
                   {{"centre", {cell.table.centre_x, cell.table.centre_y}},
                    {"size", {cell.table.size_x, cell.table.size_y}},

@@ -79,7 +79,7 @@ void add_tools(std::vector<std::string>& text, const Cell& cell) {
         return;
     }
     Rows rows{{"tool", "name", "shape", "diameter", "flute", "stick-out", "feed mm/s", "rpm", "length"}};
-    for (const CarvingTool& tool : cell.machine->tools) {
+    for (const CuttingTool& tool : cell.machine->tools) {
         rows.push_back({std::to_string(tool.number), tool.name, to_word(tool.shape), number(tool.diameter),
                         number(tool.flute_length), number(tool.stick_out),
                         number(tool.feed_min_mm_per_s) + " to " + number(tool.feed_max_mm_per_s),
@@ -177,8 +177,8 @@ std::vector<std::string> lines(const ShownCell& shown) {
     if (!cell.machine) text.emplace_back("robot      not described: the arm is not checked");
     if (cell.machine && !cell.machine->robot) text.emplace_back("robot      none: a gantry of three axes");
     if (cell.machine && cell.machine->robot) add_robot(text, *cell.machine->robot);
-    text.push_back("reach      of the tool tip " + in_brackets(cell.reach.min, 1) + " to " +
-                   in_brackets(cell.reach.max, 1));
+    text.push_back("reach      of the tool tip " + in_brackets(cell.workspace.min, 1) + " to " +
+                   in_brackets(cell.workspace.max, 1));
     text.push_back(table_line(cell));
     if (cell.machine) add_spindle(text, *cell.machine);
     if (cell.machine) add_limits(text, *cell.machine);

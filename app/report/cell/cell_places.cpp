@@ -4,7 +4,7 @@
 
 #include "app/report/cell/cell_report.h"
 #include "app/report/columns.h"
-#include "app/report/work_envelope_report.h"
+#include "app/report/machine_reachability_report.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -11,9 +11,9 @@ namespace qchopper {
 namespace {
 
 constexpr double margin = 6;
-constexpr double foot = 26;          // below the cap, for scale bar and title
-constexpr double least_width = 150;  // so that bar and title have room
-constexpr double mark = 4;           // beyond the rim of a hole
+constexpr double foot = 26;        // below the cap, for scale bar and title
+constexpr double min_width = 150;  // so that bar and title have room
+constexpr double mark = 4;         // beyond the rim of a hole
 
 std::string hole_text(const JobHole& hole) {
     return significant(hole.diameter, 4) + " mm, " + significant(hole.depth, 4) + " deep" +
@@ -32,7 +32,7 @@ void add_hole(CapTemplate& drawing, const JobHole& hole, Point2 at) {
 // With a foot below it that holds title and scale bar.
 CapTemplate with_foot(const CapTemplate& drawing) {
     CapTemplate all = drawing;
-    all.sheet = {std::max(least_width, drawing.sheet.x), drawing.sheet.y + foot};
+    all.sheet = {std::max(min_width, drawing.sheet.x), drawing.sheet.y + foot};
     const auto raise = [](Point2& p) { p.y += foot; };
     for (std::vector<Point2>& outline : all.outlines) std::for_each(outline.begin(), outline.end(), raise);
     for (std::vector<Point2>& line : all.lines) std::for_each(line.begin(), line.end(), raise);

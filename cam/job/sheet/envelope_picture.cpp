@@ -34,13 +34,13 @@ struct Body {
 };
 
 // The tool whose tip is at the pose with these joints; of others that with the largest stick-out.
-const CarvingTool& tool_of(const CellMachine& machine, const EnvelopePose& pose) {
-    const CarvingTool* longest = &machine.tools.front();
-    for (const CarvingTool& tool : machine.tools) {
+const CuttingTool& tool_of(const CellMachine& machine, const ReachabilityPose& pose) {
+    const CuttingTool* longest = &machine.tools.front();
+    for (const CuttingTool& tool : machine.tools) {
         if (!is_drill(tool) && tool.stick_out > longest->stick_out) longest = &tool;
     }
     if (!machine.robot || !pose.joints || pose.kind != PoseKind::tool_change) return *longest;
-    for (const CarvingTool& tool : machine.tools) {
+    for (const CuttingTool& tool : machine.tools) {
         const ToolArm arm = tool_arm(*machine.robot, machine.spindle, tool);
         const Pose tip = arm.base_in_cell * (forward(arm.geometry, *pose.joints) * arm.tip_in_flange);
         if (norm(tip.shift - pose.tip_in_cell) < 1e-3) return tool;
@@ -57,9 +57,9 @@ Rgb colour_of(BodyPart part) {
     return part == BodyPart::tool ? tool_colour : axis_colour;
 }
 
-void add_moving(const Cell& cell, const EnvelopePose& pose, std::vector<Body>& bodies) {
+void add_moving(const Cell& cell, const ReachabilityPose& pose, std::vector<Body>& bodies) {
     if (cell.machine->robot && !pose.joints) return;  // not reached
-    const CarvingTool& tool = tool_of(*cell.machine, pose);
+    const CuttingTool& tool = tool_of(*cell.machine, pose);
     const MovingBodies moving = bodies_at(cell, tool, pose.joints.value_or(Joints{}), pose.tip_in_cell);
     for (const LinkBody& link : moving.links) {
         bodies.push_back({"link " + std::to_string(link.link), link_colour, capsule_mesh(link.shape)});
@@ -106,18 +106,18 @@ TriangleMesh edges_of(const Setup& setup) {
 }
 
 // Across the vertical plane of the arm and a little from above, so that the arm is seen from its side.
-Vec3 view_of(const Cell& cell, const EnvelopePose& pose, const Pose& setup_in_cell) {
+Vec3 view_of(const Cell& cell, const ReachabilityPose& pose, const Pose& setup_in_cell) {
     Vec3 along{1, 0, 0};
     if (cell.machine->robot) along = setup_in_cell.shift - cell.machine->robot->base_in_cell.shift;
     along.z = 0;
     if (norm(along) < 1) along = {1, 0, 0};
     along = normalized(along);
     const Vec3 across{-along.y, along.x, 0};
-    const double side = dot(pose.out_in_cell, across) < 0 ? -1 : 1;  // the side to which the tool leans is behind
+    const double side = dot(pose.tool_axis_in_cell, across) < 0 ? -1 : 1;  // the side to which the tool leans is behind
     return rotate_inverse(setup_in_cell, side * across + 0.35 * along - Vec3{0, 0, 0.45});
 }
 
-std::vector<Body> bodies_of(const JobInput& input, const EnvelopeMargin& margin, const Pose& in_cell) {
+std::vector<Body> bodies_of(const JobInput& input, const ReachabilityMargin& margin, const Pose& in_cell) {
     std::vector<Body> bodies;
     add_moving(input.cell, margin.pose, bodies);
     add_standing(input.cell, bodies);
@@ -132,11 +132,11 @@ std::vector<Body> bodies_of(const JobInput& input, const EnvelopeMargin& margin,
 }  // namespace
 
 Bytes envelope_picture(const JobInput& input, const TriangleMesh& lying) {
-    assert(input.work_envelope.is_arm_checked && input.cell.machine);
-    const EnvelopeMargin& margin = input.work_envelope.tightest();
+    assert(input.machine_reachability.is_arm_checked && input.cell.machine);
+    const ReachabilityMargin& margin = input.machine_reachability.tightest();
     const bool has_direction = margin.pose.kind != PoseKind::home && margin.pose.kind != PoseKind::tool_change;
-    const Pose in_cell =
-        setup_in_cell(input.cell, input.setup.spoil, input.setup.placement, has_direction ? margin.pose.direction : 0);
+    const Pose in_cell = setup_in_cell(input.cell, input.setup.spoil, input.setup.placement,
+                                       has_direction ? margin.pose.orientation : 0);
     const std::vector<Body> bodies = bodies_of(input, margin, in_cell);
     std::vector<ColouredMesh> meshes{{&lying, bone_colour, {}}};
     for (const Body& body : bodies) {

@@ -14,7 +14,7 @@ namespace qchopper {
 constexpr int envelope_picture_width = 1000;
 constexpr int envelope_picture_height = 750;
 
-// PNG. `lying` is the piece in setup coordinates. Precondition: input.work_envelope.is_arm_checked.
+// PNG. `lying` is the piece in setup coordinates. Precondition: input.machine_reachability.is_arm_checked.
 Bytes envelope_picture(const JobInput& input, const TriangleMesh& lying);
 
 }  // namespace qchopper

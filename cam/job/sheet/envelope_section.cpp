@@ -19,14 +19,14 @@ std::string degrees(double radians) {
     return fixed(radians * 180 / std::numbers::pi, 1);
 }
 
-std::string picture_of(const WorkEnvelope& envelope) {
+std::string picture_of(const MachineReachability& reachability) {
     return figure({"envelope.png", envelope_picture_width, envelope_picture_height},
-                  "The tightest pose: " + describe_margin(envelope.tightest()) +
+                  "The tightest pose: " + describe_margin(reachability.tightest()) +
                       ". Links of the arm as capsules; what the margin lies between is red. The block is drawn by its "
                       "edges.");
 }
 
-std::string joints_of(const EnvelopePose& pose) {
+std::string joints_of(const ReachabilityPose& pose) {
     if (!pose.joints) return {};
     std::string text = "Joints of the arm there, degrees: ";
     for (std::size_t axis = 0; axis < pose.joints->size(); ++axis) {
@@ -36,10 +36,10 @@ std::string joints_of(const EnvelopePose& pose) {
                      fixed(pose.tip_in_cell.y, 1) + ", " + fixed(pose.tip_in_cell.z, 1) + ").");
 }
 
-std::string checks_of(const WorkEnvelope& envelope) {
+std::string checks_of(const MachineReachability& reachability) {
     Rows rows{{word("check"), word("between"), right("measured"), right("needed"), right("margin"), word("unit"),
                word("pose")}};
-    for (const EnvelopeMargin& margin : envelope.margins) {
+    for (const ReachabilityMargin& margin : reachability.margins) {
         const CheckRule& rule = rule_of(margin.check);
         rows.push_back({word(rule.name), word(margin.pair), number(margin.margin + rule.needed, 1),
                         number(rule.needed, 1), number(margin.margin, 1), word(rule.unit),
@@ -60,21 +60,21 @@ std::string angles_of(const BlockPlacement& placement) {
 }  // namespace
 
 std::string envelope_section(const JobInput& input) {
-    const WorkEnvelope& envelope = input.work_envelope;
-    if (!envelope.is_arm_checked) {
+    const MachineReachability& reachability = input.machine_reachability;
+    if (!reachability.is_arm_checked) {
         return section(title, paragraph("Arm not checked: the cell file describes none."));
     }
     std::string html =
-        paragraph(counted(envelope.poses, "pose") +
+        paragraph(counted(reachability.poses, "pose") +
                   " of the tool were asked of the machine: tips on the piece, corners and edges "
                   "of the block, above it, home and tool changes. " +
-                  (envelope.holds() ? "It holds all of them; the tightest margin of each check is listed."
-                                    : "What has a negative margin is not held."));
-    if (envelope.holds() && envelope.cure != EnvelopeCure::none) {
-        html += paragraph(std::string("What it takes: ") + to_words(envelope.cure) + ".");
+                  (reachability.holds() ? "It holds all of them; the tightest margin of each check is listed."
+                                        : "What has a negative margin is not held."));
+    if (reachability.holds() && reachability.remedy != Remedy::none) {
+        html += paragraph(std::string("What it takes: ") + describe(reachability.remedy) + ".");
     }
-    return section(title, html + picture_of(envelope) + joints_of(envelope.tightest().pose) + checks_of(envelope) +
-                              angles_of(input.setup.placement));
+    return section(title, html + picture_of(reachability) + joints_of(reachability.tightest().pose) +
+                              checks_of(reachability) + angles_of(input.setup.placement));
 }
 
 }  // namespace qchopper

@@ -116,8 +116,8 @@ SheetOfOrder sheet_of(const ReadJob& job, const std::string& file, const std::st
     sheet.block = job.setup.block.size;
     sheet.is_sawn = job.setup.block.is_sawn;
     sheet.time_s = job.ticket.estimated_time_s;
-    sheet.unreachable_share = job.setup.reach.unreachable_share();
-    if (job.setup.reach.method == ReachMethod::mapped) sheet.foam_mm3 = job.setup.reach.foam_mm3;
+    sheet.unreachable_share = job.setup.access.unreachable_share();
+    if (job.setup.access.method == AccessMethod::mapped) sheet.foam_mm3 = job.setup.access.foam_mm3;
     for (const JobHole& hole : holes_of(job.caps)) sheet.holes_by_hand += hole.by_robot ? 0 : 1;
     sheet.page = with_pictures(page_in(job.files.at("setup.html")), job.files);
     return sheet;

@@ -1,4 +1,4 @@
-// Writes the piece as it will be carved as GLB, for any viewer.
+// Writes the piece as it will be milled as GLB, for any viewer.
 //
 // glTF is in metres with Y up: the root node turns and scales; coordinates below it are millimetres in setup
 // coordinates in single precision. The node piece/<name> has extras {"qchopper": {...}}

@@ -16,7 +16,7 @@ std::string chunks_of(const JobProgram& program) {
     Rows rows{{right("chunk"), word("file"), right("tool"), right("direction"), right("moves"), right("length, m")}};
     for (const JobChunk& chunk : program.chunks) {
         rows.push_back({right(std::to_string(rows.size())), word(chunk.file), right(std::to_string(chunk.tool)),
-                        right(std::to_string(chunk.direction + 1)), right(with_commas(chunk.moves)),
+                        right(std::to_string(chunk.orientation + 1)), right(with_commas(chunk.moves)),
                         number(chunk.length_mm / 1000, 1)});
     }
     return table(rows);
@@ -33,7 +33,7 @@ std::string left_out_of(const JobProgram& program, const std::vector<std::uint16
     Rows rows{{right("tool left out"), right("direction"), word("because")}};
     for (const ToolLeftOut& tool : program.left_out) {
         rows.push_back({right(tool.tool ? std::to_string(*tool.tool) : "all"),
-                        right(tool.direction ? std::to_string(*tool.direction + 1) : "all"), word(tool.because)});
+                        right(tool.orientation ? std::to_string(*tool.orientation + 1) : "all"), word(tool.because)});
     }
     return html + table(rows) + paragraph("The proof says how much of the surface is given up for that.");
 }

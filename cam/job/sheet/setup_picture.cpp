@@ -55,20 +55,20 @@ TriangleMesh bars_of(const Setup& setup, double width) {
 }
 
 // From outside towards the middle of the piece, its tip just outside of the block.
-TriangleMesh arrow(const Setup& setup, Vec3 out, double diagonal) {
+TriangleMesh arrow(const Setup& setup, Vec3 tool_axis, double diagonal) {
     const Box block = setup.block_box();
     const Vec3 middle = setup.box.centre();
     double inside = std::numeric_limits<double>::max();
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(out[axis]) < 1e-9) continue;
-        const double side = out[axis] > 0 ? block.max[axis] : block.min[axis];
-        inside = std::min(inside, std::max(0.0, (side - middle[axis]) / out[axis]));
+        if (std::abs(tool_axis[axis]) < 1e-9) continue;
+        const double side = tool_axis[axis] > 0 ? block.max[axis] : block.min[axis];
+        inside = std::min(inside, std::max(0.0, (side - middle[axis]) / tool_axis[axis]));
     }
     const double length = 0.24 * diagonal;
     const double head = 0.09 * diagonal;
-    const Vec3 tail = middle + (inside + 0.015 * diagonal + length) * out;
+    const Vec3 tail = middle + (inside + 0.015 * diagonal + length) * tool_axis;
     const double shaft = 0.010 * diagonal;
-    return turned_profile(tail, -out,
+    return turned_profile(tail, -tool_axis,
                           {{0, 0}, {0, shaft}, {length - head, shaft}, {length - head, 0.03 * diagonal}, {length, 0}});
 }
 
@@ -114,14 +114,14 @@ SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
     const double diagonal = norm(setup.block.size);
     std::array<Rgb, states.size() + 1> palette;
     for (const SurfaceState state : states) {
-        palette[static_cast<std::size_t>(state)] = surface_colour(state, setup.reach.narrow_counts);
+        palette[static_cast<std::size_t>(state)] = surface_colour(state, setup.access.narrow_counts);
     }
     palette[base_index] = base_colour;
     const std::vector<std::uint8_t> colours = colours_of(input, lying);
     std::vector<std::pair<TriangleMesh, std::string>> named;  // with what is written on each
-    for (const SetupDirection& direction : setup.reach.directions) {
-        const Vec3 out = setup.tool_axis(direction);
-        named.emplace_back(arrow(setup, out, diagonal), std::to_string(named.size() + 1));
+    for (const ToolOrientation& orientation : setup.access.orientations) {
+        const Vec3 tool_axis = setup.tool_axis(orientation);
+        named.emplace_back(arrow(setup, tool_axis, diagonal), std::to_string(named.size() + 1));
     }
     const std::size_t arrows = named.size();
     for (const TouchPoint& point : touch_points(setup))

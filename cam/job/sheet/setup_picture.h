@@ -1,4 +1,4 @@
-// Draws the piece in its block as it will be carved, from two opposite sides, for the setup sheet.
+// Draws the piece in its block as it will be milled, from two opposite sides, for the setup sheet.
 //
 // Shown are the surface in colours by what becomes of it, the block and its spoil layer as thin bars, an arrow for each
 // direction with its number in the sheet, and the points to touch off. Same input, same bytes, whatever the number of

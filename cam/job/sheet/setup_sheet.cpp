@@ -23,7 +23,7 @@ using namespace sheet;
 
 constexpr std::size_t longest_line = 150;  // bytes of a warning
 constexpr std::size_t longest_stop = 300;
-constexpr std::size_t most_warnings = 4;
+constexpr std::size_t max_warnings = 4;
 
 std::string head(const JobInput& input) {
     const JobPart part = input.program ? input.program->program.part : JobPart{};
@@ -34,8 +34,9 @@ std::string head(const JobInput& input) {
         html += stop("Part " + std::to_string(part.number) + " of " + std::to_string(part.count) +
                      ": carved one after the other from the same block, which must not be moved between them.");
     }
-    if (!input.envelope.fits()) refuse(describe_envelope(input.piece.name, input.envelope) + ".");
-    if (!input.work_envelope.holds()) refuse(describe_work_envelope(input.piece.name, input.work_envelope) + ".");
+    if (!input.stock_fit.fits()) refuse(describe_stock_fit(input.piece.name, input.stock_fit) + ".");
+    if (!input.machine_reachability.holds())
+        refuse(describe_reachability(input.piece.name, input.machine_reachability) + ".");
     if (input.program && !input.program->is_proven) {
         const std::vector<std::string>& findings = input.program->findings;
         refuse("the replay of the program found faults" + (findings.empty() ? "." : ": " + findings.front() + "."));
@@ -58,17 +59,17 @@ std::string keys_of(const JobInput& input) {
     const auto add = [&](Rgb colour, const char* name) {
         html += (html.empty() ? "" : ", ") + key(svg_colour(colour), name).html;
     };
-    const SurfaceReach& reach = input.setup.reach;
+    const SurfaceAccess& access = input.setup.access;
     const auto add_state = [&](SurfaceState state, const char* name) {
-        add(surface_colour(state, reach.narrow_counts), name);
+        add(surface_colour(state, access.narrow_counts), name);
     };
     if (!input.states.empty()) {
         add_state(SurfaceState::reached, "reached");
         add_state(SurfaceState::hidden, "hidden");
         add_state(SurfaceState::steep, "steep");
         add_state(SurfaceState::holder, "holder");
-        add_state(SurfaceState::too_narrow, reach.narrow_counts ? "too narrow" : "too narrow (does not count)");
-        if (reach.ignored_mm2 > 0) add_state(SurfaceState::ignored, "ignored");
+        add_state(SurfaceState::too_narrow, access.narrow_counts ? "too narrow" : "too narrow (does not count)");
+        if (access.ignored_mm2 > 0) add_state(SurfaceState::ignored, "ignored");
     }
     if (input.setup.base) add(base_colour, "base");
     if (html.empty()) return {};
@@ -87,7 +88,7 @@ std::string pictures(const JobInput& input) {
 
 std::string block_section(const JobInput& input) {
     const Stock& stock = input.cell.stock[input.setup.block.stock];
-    const CarvingBlock& block = input.setup.block;
+    const StockBlock& block = input.setup.block;
     std::string html = paragraph("Take block \"" + stock.name + "\" (" + to_word(stock.material) + "), " +
                                  size_text(stock.size) + " mm.");
     if (block.is_sawn && block.offcuts.empty()) {
@@ -183,7 +184,7 @@ std::string tool_section(const JobInput& input) {
              right("mm/s, at most"), word("length")}};
     const std::vector<std::uint16_t> used = used_tools(input);
     for (const std::uint16_t wanted : used) {
-        for (const CarvingTool& tool : cell.machine->tools) {
+        for (const CuttingTool& tool : cell.machine->tools) {
             if (tool.number != wanted) continue;
             rows.push_back({right(std::to_string(tool.number)), word(tool.name), word(to_word(tool.shape)),
                             number(tool.diameter, 1), number(tool.stick_out, 1), right(std::to_string(tool.rpm_max)),
@@ -217,18 +218,18 @@ std::string start_section(const JobInput& input, std::uint32_t seconds) {
 
 // The only figure of the sheet for what stays out of reach: that by which the job is judged.
 std::string foam_that_stays(const JobInput& input) {
-    const SurfaceReach& reach = input.setup.reach;
-    if (reach.area_mm2 <= 0) return paragraph("What the tool reaches was not judged.");
-    std::string text = "Out of reach of the tool: " + percent(reach.unreachable_share()) + " of the surface" +
+    const SurfaceAccess& access = input.setup.access;
+    if (access.area_mm2 <= 0) return paragraph("What the tool reaches was not judged.");
+    std::string text = "Out of reach of the tool: " + percent(access.unreachable_share()) + " of the surface" +
                        (input.max_unreachable < 1 ? ", limit " + percent(input.max_unreachable) : std::string()) + ".";
-    if (reach.method == ReachMethod::mapped) {
-        text += " " + fixed(reach.foam_mm3 / 1000, 1) + " cm3 of foam stay there, up to " +
-                fixed(reach.foam_depth_mm, 1) + " mm deep: take it off by hand.";
+    if (access.method == AccessMethod::mapped) {
+        text += " " + fixed(access.foam_mm3 / 1000, 1) + " cm3 of foam stay there, up to " +
+                fixed(access.foam_depth_mm, 1) + " mm deep: take it off by hand.";
     }
     return paragraph(text);
 }
 
-// What the program does not carve; the details say of tools and directions why.
+// What the program does not mill; the details say of tools and directions why.
 std::string left_out(const JobInput& input) {
     if (!input.program) return {};
     const JobProgram& program = input.program->program;
@@ -277,11 +278,11 @@ std::string end_section(const JobInput& input) {
 std::string warning_section(const JobInput& input) {
     const std::vector<std::string> all = warnings_of(input);
     std::string list;
-    for (std::size_t i = 0; i < std::min(all.size(), most_warnings); ++i) {
+    for (std::size_t i = 0; i < std::min(all.size(), max_warnings); ++i) {
         list += "<li>" + svg_text(clipped(all[i], longest_line)) + "</li>\n";
     }
-    if (all.size() > most_warnings) {
-        list += "<li>" + std::to_string(all.size() - most_warnings) + " more in details.html</li>\n";
+    if (all.size() > max_warnings) {
+        list += "<li>" + std::to_string(all.size() - max_warnings) + " more in details.html</li>\n";
     }
     return section("7. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
 }

@@ -39,27 +39,27 @@ std::string piece_section(const Setup& setup) {
                                           percent(setup.undercut_by_count, 1) + " of the triangles."));
 }
 
-std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const SetupDirection& direction) {
-    const Vec3 out = setup.tool_axis(direction);
-    const bool is_vertical = std::hypot(out.x, out.y) < 1e-6;
-    const double azimuth = degrees(std::atan2(out.y, out.x));
-    return {word(name), number(direction.tilt_deg, 1),
+std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const ToolOrientation& orientation) {
+    const Vec3 tool_axis = setup.tool_axis(orientation);
+    const bool is_vertical = std::hypot(tool_axis.x, tool_axis.y) < 1e-6;
+    const double azimuth = degrees(std::atan2(tool_axis.y, tool_axis.x));
+    return {word(name), number(orientation.tilt_deg, 1),
             is_vertical ? right("any") : number(azimuth < -0.05 ? azimuth + 360 : azimuth, 1),
-            number(100 * direction.gained_share, 1), number(direction.depth_mm, 1)};
+            number(100 * orientation.gained_share, 1), number(orientation.depth_mm, 1)};
 }
 
 std::string direction_section(const JobInput& input) {
-    const SurfaceReach& reach = input.setup.reach;
-    const std::string arm = paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
-                                                           : "Arm not checked: whether it holds the tool in these "
-                                                             "directions is not known.");
-    if (reach.directions.empty()) return section("Directions", paragraph("None was chosen.") + arm);
+    const SurfaceAccess& access = input.setup.access;
+    const std::string arm = paragraph(access.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
+                                                            : "Arm not checked: whether it holds the tool in these "
+                                                              "directions is not known.");
+    if (access.orientations.empty()) return section("Directions", paragraph("None was chosen.") + arm);
     Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
                right("depth")}};
-    for (std::size_t i = 0; i < reach.directions.size(); ++i) {
-        rows.push_back(direction_row(input.setup, std::to_string(i + 1), reach.directions[i]));
+    for (std::size_t i = 0; i < access.orientations.size(); ++i) {
+        rows.push_back(direction_row(input.setup, std::to_string(i + 1), access.orientations[i]));
     }
-    if (reach.further) rows.push_back(direction_row(input.setup, "worth adding", *reach.further));
+    if (access.further) rows.push_back(direction_row(input.setup, "worth adding", *access.further));
     return section(
         "Directions",
         table(rows) +
@@ -69,29 +69,30 @@ std::string direction_section(const JobInput& input) {
             arm);
 }
 
-std::string reach_section(const JobInput& input) {
+std::string access_section(const JobInput& input) {
     constexpr const char* title = "What the tool does not reach";
-    const SurfaceReach& reach = input.setup.reach;
-    if (reach.area_mm2 <= 0) return section(title, paragraph("Not judged: the pictures show the piece in one colour."));
+    const SurfaceAccess& access = input.setup.access;
+    if (access.area_mm2 <= 0)
+        return section(title, paragraph("Not judged: the pictures show the piece in one colour."));
     Rows rows{{word("surface"), right("cm2"), right("% of the surface"), word("because")}};
     std::string besides;
     const auto add = [&](SurfaceState state, const char* name, double mm2, bool counts, const char* why) {
-        const Entry in_colour = key(svg_colour(surface_colour(state, reach.narrow_counts)), name);
+        const Entry in_colour = key(svg_colour(surface_colour(state, access.narrow_counts)), name);
         if (counts) {
-            rows.push_back({in_colour, number(mm2 / 100, 1), number(100 * mm2 / reach.area_mm2, 2), word(why)});
+            rows.push_back({in_colour, number(mm2 / 100, 1), number(100 * mm2 / access.area_mm2, 2), word(why)});
         } else if (mm2 > 0) {
             besides += "<p>" + in_colour.html + svg_text(": " + fixed(mm2 / 100, 1) + " cm2, " + why) +
                        "; does not count</p>\n";
         }
     };
-    add(SurfaceState::hidden, "hidden", reach.hidden_mm2, true, "in sight of no direction");
-    add(SurfaceState::steep, "steep", reach.steep_mm2, reach.steep_counts, "within 3 degrees of a direction");
-    add(SurfaceState::holder, "holder", reach.holder_mm2, true, "the tool is too short: its holder would touch");
-    add(SurfaceState::too_narrow, "too narrow", reach.too_narrow_mm2, reach.narrow_counts,
+    add(SurfaceState::hidden, "hidden", access.hidden_mm2, true, "in sight of no direction");
+    add(SurfaceState::steep, "steep", access.steep_mm2, access.steep_counts, "within 3 degrees of a direction");
+    add(SurfaceState::holder, "holder", access.holder_mm2, true, "the tool is too short: its holder would touch");
+    add(SurfaceState::too_narrow, "too narrow", access.too_narrow_mm2, access.narrow_counts,
         "the smallest tool does not fit in");
-    add(SurfaceState::ignored, "ignored", reach.ignored_mm2, false, "may stay as it is by the operator's choice");
-    rows.push_back({word("unreachable together"), number(reach.unreachable_mm2() / 100, 1),
-                    number(100 * reach.unreachable_share(), 2), word("")});
+    add(SurfaceState::ignored, "ignored", access.ignored_mm2, false, "may stay as it is by the operator's choice");
+    rows.push_back({word("unreachable together"), number(access.unreachable_mm2() / 100, 1),
+                    number(100 * access.unreachable_share(), 2), word("")});
     rows.push_back({word("limit"), word(""),
                     input.max_unreachable < 1 ? number(100 * input.max_unreachable, 2) : right("none"), word("")});
     std::string html = table(rows) + besides + "<p>" +
@@ -99,12 +100,12 @@ std::string reach_section(const JobInput& input) {
     if (input.states.empty()) {
         html += paragraph("The pictures show the piece in one colour: which triangles are reached was not computed.");
     }
-    if (reach.method == ReachMethod::mapped) {
-        html += table(
-            {{word("foam that stays"), right("cm3"), right("depth, at most")},
-             {word("where no tool of these directions reaches"), number(reach.foam_mm3 / 1000, 1),
-              number(reach.foam_depth_mm, 1)},
-             {word("residue of the smallest tool's radius, besides"), number(reach.residue_mm3 / 1000, 1), word("")}});
+    if (access.method == AccessMethod::mapped) {
+        html += table({{word("foam that stays"), right("cm3"), right("depth, at most")},
+                       {word("where no tool of these directions reaches"), number(access.foam_mm3 / 1000, 1),
+                        number(access.foam_depth_mm, 1)},
+                       {word("residue of the smallest tool's radius, besides"),
+                        number(access.rest_material_mm3 / 1000, 1), word("")}});
     } else {
         html +=
             paragraph("Judged by samples of the surface: volume and depth of the foam that stays are not computed.");
@@ -117,19 +118,19 @@ std::string alternative_section(const JobInput& input) {
     Rows rows{{right("base"), word("what it is"), word("judged by"), right("unreachable, %"), right("foam, cm3"),
                right("residue, cm3"), word("block"), right("directions")}};
     for (const Alternative& other : alternatives_of(input)) {
-        const bool is_mapped = other.method == ReachMethod::mapped;
+        const bool is_mapped = other.method == AccessMethod::mapped;
         rows.push_back({right(std::to_string(other.base_number)), word(other.base_description),
                         word(is_mapped ? "height maps" : "samples"), number(100 * other.unreachable_share, 2),
                         is_mapped ? number(other.foam_mm3 / 1000, 1) : right("-"),
-                        is_mapped ? number(other.residue_mm3 / 1000, 1) : right("-"), word(size_text(other.block)),
-                        right(std::to_string(other.directions))});
+                        is_mapped ? number(other.rest_material_mm3 / 1000, 1) : right("-"),
+                        word(size_text(other.block)), right(std::to_string(other.directions))});
     }
     return section("Other bases", table(rows) + paragraph("qchopper setup --base takes the number of a base."));
 }
 
-std::string margin_section(const EnvelopeReport& envelope) {
+std::string margin_section(const StockFit& stock_fit) {
     Rows rows{{word("margin"), right("mm")}};
-    for (const Margin& margin : envelope.margins) rows.push_back({word(margin.name), number(margin.mm, 1)});
+    for (const Margin& margin : stock_fit.margins) rows.push_back({word(margin.name), number(margin.mm, 1)});
     return section("Margins", table(rows) + paragraph("What is negative does not fit."));
 }
 
@@ -165,8 +166,8 @@ std::string sheet_details(const JobInput& input) {
                         paragraph("Behind the setup sheet, setup.html: why the piece lies as it lies, and what was "
                                   "checked. Lengths are in mm where nothing else is stated.") +
                         warning_section(input) + piece_section(input.setup) + direction_section(input) +
-                        reach_section(input) + cap_section(input) + program_section(input) + envelope_section(input) +
-                        margin_section(input.envelope) + formula_section(input.setup) + alternative_section(input) +
+                        access_section(input) + cap_section(input) + program_section(input) + envelope_section(input) +
+                        margin_section(input.stock_fit) + formula_section(input.setup) + alternative_section(input) +
                         sheet_footer(input) + page_end);
 }
 

@@ -1,5 +1,5 @@
 // Each place of a grid is scored on all poses by place_score.h, and the best place is that of place_block.h.
-// O(places x poses x branches of the arm).
+// O(places x poses x arm configurations).
 
 #include "cam/setup/placement/block_places.h"
 
@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "cam/setup/block.h"
-#include "cam/setup/placement/carving_poses.h"
+#include "cam/setup/placement/milling_poses.h"
 #include "cam/setup/placement/place_block.h"
 #include "cam/setup/placement/place_score.h"
 
@@ -27,11 +27,11 @@ Setup empty_setup(const Cell& cell, Vec3 block, double tilt) {
     setup.spoil = std::min(margins.spoil, 0.5 * block.z);
     setup.block.size = block;
     setup.box = setup.milled_box();
-    setup.reach.directions.push_back({{0, 0, 1}, 0, 0, 0});
+    setup.access.orientations.push_back({{0, 0, 1}, 0, 0, 0});
     for (int i = 0; tilt > 0 && i < block_azimuths; ++i) {
         const double azimuth = 2 * std::numbers::pi * i / block_azimuths;
-        const Vec3 out{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
-        setup.reach.directions.push_back({out, tilt * 180 / std::numbers::pi, 0, 0});
+        const Vec3 tool_axis{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+        setup.access.orientations.push_back({tool_axis, tilt * 180 / std::numbers::pi, 0, 0});
     }
     return setup;
 }
@@ -47,7 +47,7 @@ BlockPlaces block_places(const Cell& cell, Vec3 block, double tilt, double step,
     const Setup setup = empty_setup(cell, block, tilt);
     PoseOptions options;
     options.block_only = true;
-    const std::vector<DirectionPoses> poses = carving_poses(setup, {}, cell, options);
+    const std::vector<OrientationPoses> poses = milling_poses(setup, {}, cell, options);
     BlockPlaces map{block, tilt, step, places_along(cell.table.size_x, step), places_along(cell.table.size_y, step),
                     {},    {}};
     map.places.resize(map.columns * map.rows);

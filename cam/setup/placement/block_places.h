@@ -2,7 +2,7 @@
 // from all around.
 //
 // mm and radians. The poses are those of a block without a piece: its corners and edges on the sides that the tool
-// comes to, and above them (carving_poses.h); no tip inside of it. The same for any number of threads
+// comes to, and above them (milling_poses.h); no tip inside of it. The same for any number of threads
 // (tests/cam/setup/placement/block_places_test.cpp).
 
 #pragma once
@@ -13,7 +13,7 @@
 
 #include "base/context.h"
 #include "cam/cell/cell.h"
-#include "cam/setup/placement/work_envelope.h"
+#include "cam/setup/placement/machine_reachability.h"
 
 namespace qchopper {
 
@@ -33,7 +33,7 @@ struct BlockPlaces {
     std::size_t columns = 0;         // along x
     std::size_t rows = 0;            // along y
     std::vector<BlockPlace> places;  // row by row, x and y ascending
-    WorkEnvelope best;               // of a search that also turns the block
+    MachineReachability best;        // of a search that also turns the block
 };
 
 constexpr int block_azimuths = 8;  // of a tilt, 45 degrees apart, the first towards x of the block

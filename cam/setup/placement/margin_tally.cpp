@@ -86,7 +86,7 @@ std::string describe_pair(const Cell& cell, PoseCheck check, MarginPair pair) {
             return "axes 4 and 6 in line";
         case PoseCheck::axis_step:
             return "an axis between two poses beside each other";
-        case PoseCheck::one_branch:
+        case PoseCheck::one_configuration:
             return "the poses of a region";
     }
     return {};

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "cam/cell/cell.h"
-#include "cam/setup/placement/work_envelope.h"
+#include "cam/setup/placement/machine_reachability.h"
 
 namespace qchopper {
 

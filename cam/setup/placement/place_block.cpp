@@ -1,8 +1,8 @@
 // Places of a grid are judged by the extreme poses alone, nearest to the middle of the table first; the best is refined
 // in steps that are halved. Then all poses are judged at the best places, until no other can be better. Everywhere a
-// branch, an angle of the table or a place is left as soon as it is known to be worse than the best so far. The grid is
-// finer than 20 cm and 30 degrees and holds all places of such a scan about the middle of the table; where none of it
-// holds, a finer one is searched.
+// configuration, an angle of the table or a place is left as soon as it is known to be worse than the best so far. The
+// grid is finer than 20 cm and 30 degrees and holds all places of such a scan about the middle of the table; where none
+// of it holds, a finer one is searched.
 
 #include "cam/setup/placement/place_block.h"
 
@@ -14,8 +14,8 @@
 #include <numbers>
 #include <utility>
 
-#include "cam/setup/placement/envelope_report.h"
 #include "cam/setup/placement/place_score.h"
+#include "cam/setup/placement/reachability_report.h"
 
 namespace qchopper {
 namespace {
@@ -24,7 +24,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-9;     // of scores
 constexpr double score_slack = 0.02;  // a place that is worse than the best by less may be the best of all poses
-constexpr std::size_t most_compared = 4;
+constexpr std::size_t max_compared = 4;
 
 struct PlaceGrid {
     double shift;  // mm
@@ -39,10 +39,10 @@ const ScoreOptions in_full{.all = true, .best_everywhere = true};
 
 class PlaceSearch {
  public:
-    PlaceSearch(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions,
+    PlaceSearch(const Setup& setup, const Cell& cell, const std::vector<OrientationPoses>& orientations,
                 const Context& context)
-        : setup_(setup), cell_(cell), context_(context), scorer_(setup, cell, directions) {
-        are_angles_given_ = setup.placement.table_angles.size() == directions.size();
+        : setup_(setup), cell_(cell), context_(context), scorer_(setup, cell, orientations) {
+        are_angles_given_ = setup.placement.table_angles.size() == orientations.size();
     }
 
     PlaceScorer& scorer() { return scorer_; }
@@ -119,23 +119,23 @@ class PlaceSearch {
         return scorer_.judged(setup_.placement, options);
     }
 
-    // The last cure that the place in the middle of the table needs, or that it is left.
-    EnvelopeCure needed_cure() {
-        if (inside_table(cell_, setup_.block.size, {}) < -rounding) return EnvelopeCure::block_shift;
+    // The last remedy that the place in the middle of the table needs, or that it is left.
+    Remedy needed_remedy() {
+        if (inside_table(cell_, setup_.block.size, {}) < -rounding) return Remedy::block_shift;
         scorer_.given_angles(false);
         struct Step {
-            EnvelopeCure cure;
-            CureFreedom freedom;
+            Remedy remedy;
+            RemedyFreedom freedom;
         };
-        constexpr std::array<Step, 4> steps{{{EnvelopeCure::none, {false, false, false}},
-                                             {EnvelopeCure::tool_turn, {true, false, false}},
-                                             {EnvelopeCure::branch, {true, true, false}},
-                                             {EnvelopeCure::table_turn, {true, true, true}}}};
+        constexpr std::array<Step, 4> steps{{{Remedy::none, {false, false, false}},
+                                             {Remedy::redundancy_angle, {true, false, false}},
+                                             {Remedy::configuration, {true, true, false}},
+                                             {Remedy::table_turn, {true, true, true}}}};
         for (const Step& step : steps) {
-            if (step.cure == EnvelopeCure::table_turn && !scorer_.has_rotary()) continue;
-            if (scorer_.judged({}, {true, 0, step.freedom, 0}).score >= -rounding) return step.cure;
+            if (step.remedy == Remedy::table_turn && !scorer_.has_rotary()) continue;
+            if (scorer_.judged({}, {true, 0, step.freedom, 0}).score >= -rounding) return step.remedy;
         }
-        return EnvelopeCure::block_shift;
+        return Remedy::block_shift;
     }
 
  private:
@@ -199,7 +199,7 @@ class PlaceSearch {
         std::size_t held = 0;
         for (const PlaceScore& place : found) {
             context_.check_cancelled();
-            if (place.score <= best.score || held > most_compared) break;
+            if (place.score <= best.score || held > max_compared) break;
             // Of places that hold not even the extreme poses the best one is enough, to tell what is wrong.
             if (best.score > nothing && best.score < 0 && place.score < 0) break;
             PlaceScore whole = scorer_.judged(place.placement, {true, best.score});
@@ -218,49 +218,50 @@ class PlaceSearch {
 };
 
 // What is left to do where no place holds: other directions if that of the base alone is held.
-EnvelopeCure nearest_cure(const WorkEnvelope& envelope, bool has_other_base) {
-    const bool only_further =
-        std::all_of(envelope.regions.begin(), envelope.regions.end(),
-                    [](const HeldRegion& r) { return r.holds || r.direction > 0; }) &&
-        std::any_of(envelope.regions.begin(), envelope.regions.end(), [](const HeldRegion& r) { return !r.holds; });
-    if (only_further) return EnvelopeCure::directions;
-    return has_other_base ? EnvelopeCure::base : EnvelopeCure::cut;
+Remedy nearest_remedy(const MachineReachability& reachability, bool has_other_base) {
+    const bool only_further = std::all_of(reachability.regions.begin(), reachability.regions.end(),
+                                          [](const RegionReachability& r) { return r.holds || r.orientation > 0; }) &&
+                              std::any_of(reachability.regions.begin(), reachability.regions.end(),
+                                          [](const RegionReachability& r) { return !r.holds; });
+    if (only_further) return Remedy::directions;
+    return has_other_base ? Remedy::base : Remedy::cut;
 }
 
 }  // namespace
 
-WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
-                         const PlacementOptions& options, const Context& context) {
+MachineReachability place_block(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
+                                const PlacementOptions& options, const Context& context) {
     if (!cell.machine) return {};
-    const std::vector<DirectionPoses> directions = carving_poses(setup, mesh, cell, options.poses);
-    return place_block(setup, directions, cell, options, context);
+    const std::vector<OrientationPoses> orientations = milling_poses(setup, mesh, cell, options.poses);
+    return place_block(setup, orientations, cell, options, context);
 }
 
-WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell,
-                         const PlacementOptions& options, const Context& context) {
+MachineReachability place_block(const Setup& setup, const std::vector<OrientationPoses>& orientations, const Cell& cell,
+                                const PlacementOptions& options, const Context& context) {
     if (!cell.machine) return {};
-    assert(!directions.empty());
-    PlaceSearch search(setup, cell, directions, context);
+    assert(!orientations.empty());
+    PlaceSearch search(setup, cell, orientations, context);
     const PlaceScore place = options.is_searched ? search.searched() : search.fixed(in_full);
     const std::size_t places = search.scorer().places();
-    WorkEnvelope envelope = envelope_at(setup, cell, directions, search.scorer(), place);
-    envelope.places = places;
-    envelope.cure = envelope.holds() ? search.needed_cure() : nearest_cure(envelope, options.has_other_base);
-    return envelope;
+    MachineReachability reachability = reachability_at(setup, cell, orientations, search.scorer(), place);
+    reachability.places = places;
+    reachability.remedy =
+        reachability.holds() ? search.needed_remedy() : nearest_remedy(reachability, options.has_other_base);
+    return reachability;
 }
 
-std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<DirectionPoses>& directions,
+std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<OrientationPoses>& orientations,
                                           const Cell& cell, const BlockPlacement& first, const Context& context) {
-    assert(cell.machine && !directions.empty());
-    return PlaceSearch(setup, cell, directions, context).first_held(first);
+    assert(cell.machine && !orientations.empty());
+    return PlaceSearch(setup, cell, orientations, context).first_held(first);
 }
 
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {
     if (!cell.machine) return true;
     const Context context;
     const auto holds = [&](const PoseOptions& options) {
-        const std::vector<DirectionPoses> directions = carving_poses(setup, mesh, cell, options);
-        return PlaceSearch(setup, cell, directions, context).any_holds(first_grid);
+        const std::vector<OrientationPoses> orientations = milling_poses(setup, mesh, cell, options);
+        return PlaceSearch(setup, cell, orientations, context).any_holds(first_grid);
     };
     PoseOptions options;
     options.extremes_only = true;

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
 
 namespace qchopper {
 namespace {
@@ -21,39 +21,39 @@ constexpr int table_angles = 24;
 
 }  // namespace
 
-std::vector<ArmBranch> all_branches() {
-    std::vector<ArmBranch> branches;
+std::vector<ArmConfiguration> all_configurations() {
+    std::vector<ArmConfiguration> configurations;
     for (const bool back : {false, true}) {
         for (const bool elbow : {false, true}) {
-            for (const bool wrist : {false, true}) branches.push_back({back, elbow, wrist});
+            for (const bool wrist : {false, true}) configurations.push_back({back, elbow, wrist});
         }
     }
-    return branches;
+    return configurations;
 }
 
-PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions)
+PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector<OrientationPoses>& orientations)
     : setup_(setup),
       cell_(cell),
-      directions_(directions),
+      orientations_(orientations),
       judge_(cell, longest_tool(cell.machine->tools)),
-      branches_(all_branches()),
-      hints_(directions.size()),
-      preferred_angle_(directions.size(), 0) {
-    for (const CarvingTool& tool : cell.machine->tools) home_judges_.emplace_back(cell, tool);
+      configurations_(all_configurations()),
+      hints_(orientations.size()),
+      preferred_angle_(orientations.size(), 0) {
+    for (const CuttingTool& tool : cell.machine->tools) home_judges_.emplace_back(cell, tool);
     if (const auto& robot = cell.machine->robot) {
-        const ArmBranch home_branch = branch_of(robot->geometry, cell.machine->start.joints);
-        const auto home = std::find(branches_.begin(), branches_.end(), home_branch);
-        std::rotate(branches_.begin(), home, home + 1);
+        const ArmConfiguration home_configuration = configuration_of(robot->geometry, cell.machine->start.joints);
+        const auto home = std::find(configurations_.begin(), configurations_.end(), home_configuration);
+        std::rotate(configurations_.begin(), home, home + 1);
     }
-    order_.resize(directions.size());
+    order_.resize(orientations.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    for (std::size_t d = 0; d < directions.size(); ++d) hints_[d].resize(directions[d].regions.size());
+    for (std::size_t d = 0; d < orientations.size(); ++d) hints_[d].resize(orientations[d].regions.size());
 }
 
 PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& options) {
     ++places_;
     PlaceScore place{std::numeric_limits<double>::infinity(), std::move(placement), {}};
-    place.holds.resize(directions_.size());
+    place.postures.resize(orientations_.size());
     for (std::size_t i = 0; i < order_.size() && place.score >= options.bound; ++i) {
         const std::size_t d = order_[i];
         ScoreOptions own = options;
@@ -67,8 +67,8 @@ PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& opt
     return place;
 }
 
-StandingBlock PlaceScorer::standing(const BlockPlacement& placement, std::size_t direction) const {
-    return judge_.standing(setup_in_cell(cell_, setup_.spoil, placement, direction), setup_.block_box());
+StandingBlock PlaceScorer::standing(const BlockPlacement& placement, std::size_t orientation) const {
+    return judge_.standing(setup_in_cell(cell_, setup_.spoil, placement, orientation), setup_.block_box());
 }
 
 // Of home with each tool, the first being the one of the poses.
@@ -80,26 +80,26 @@ double PlaceScorer::home_score(const BlockPlacement& placement) {
 }
 
 double PlaceScorer::direction_score(std::size_t d, const ScoreOptions& options, PlaceScore& place) {
-    if (!has_rotary()) return score_at(d, options, place.placement, place.holds[d]);
+    if (!has_rotary()) return score_at(d, options, place.placement, place.postures[d]);
     std::vector<double>& angles = place.placement.table_angles;
     if (are_angles_given_ || !options.freedom.table_angles) {
-        if (!are_angles_given_) angles.assign(directions_.size(), 0);
-        return score_at(d, options, place.placement, place.holds[d]);
+        if (!are_angles_given_) angles.assign(orientations_.size(), 0);
+        return score_at(d, options, place.placement, place.postures[d]);
     }
-    angles.resize(directions_.size(), 0);
+    angles.resize(orientations_.size(), 0);
     double best = nothing;
     double best_angle = preferred_angle_[d];
     const auto consider = [&](double angle) {
         if (best >= options.enough) return;
         angles[d] = std::remainder(angle, 2 * std::numbers::pi);
-        std::vector<RegionHold> holds;
+        std::vector<ArmPosture> postures;
         ScoreOptions better = options;
         better.bound = std::max(options.bound, best);
-        const double score = score_at(d, better, place.placement, holds);
+        const double score = score_at(d, better, place.placement, postures);
         if (score <= best) return;
         best = score;
         best_angle = angles[d];
-        place.holds[d] = std::move(holds);
+        place.postures[d] = std::move(postures);
     };
     // Next to the angle that was best at the last place first; a multiple of 15 degrees, or of 30 in a search.
     const int every = options.all || has_fine_angles_ ? 1 : 2;
@@ -121,69 +121,71 @@ double PlaceScorer::direction_score(std::size_t d, const ScoreOptions& options, 
 }
 
 double PlaceScorer::score_at(std::size_t d, ScoreOptions options, const BlockPlacement& placement,
-                             std::vector<RegionHold>& holds) {
+                             std::vector<ArmPosture>& postures) {
     const StandingBlock block = standing(placement, d);
-    const DirectionPoses& direction = directions_[d];
+    const OrientationPoses& orientation = orientations_[d];
     // Home is where the table stands as for the first direction.
     double score = d == 0 ? home_score(placement) : std::numeric_limits<double>::infinity();
-    for (std::size_t r = 0; r < direction.regions.size() && score >= options.bound; ++r) {
-        const PoseRegion& region = direction.regions[r];
+    for (std::size_t r = 0; r < orientation.regions.size() && score >= options.bound; ++r) {
+        const PoseRegion& region = orientation.regions[r];
         const std::size_t count = options.all ? region.poses.size() : region.extremes;
-        RegionHold hold;
+        ArmPosture posture;
         if (!options.best_everywhere) options.enough = std::min(options.enough, score);
-        score = std::min(score, region_score({block, direction.out, region, count}, options, hints_[d][r], hold));
-        holds.push_back(hold);
+        score = std::min(score,
+                         region_score({block, orientation.tool_axis, region, count}, options, hints_[d][r], posture));
+        postures.push_back(posture);
     }
     return score;
 }
 
-double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, RegionHold& hold) {
+double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, ArmPosture& posture) {
     // Alone a pose is held no worse than among the others.
     if (hint.worst < placed.count) {
         alone_.poses.assign(1, placed.region.poses[hint.worst]);
         alone_.poses.front().beside = 0;
-        RegionHold own = hold;
+        ArmPosture own = posture;
         MarginTally tally(false);
-        judge_.judge(placed.block, placed.out, alone_, 1, own, bound, tally);
+        judge_.judge(placed.block, placed.tool_axis, alone_, 1, own, bound, tally);
         if (tally.score() < bound) return nothing;
     }
     MarginTally tally(false);
-    judge_.judge(placed.block, placed.out, placed.region, placed.count, hold, bound, tally);
+    judge_.judge(placed.block, placed.tool_axis, placed.region, placed.count, posture, bound, tally);
     hint.worst = tally.worst_pose();
     return tally.score();
 }
 
 double PlaceScorer::region_score(const PlacedRegion& placed, const ScoreOptions& options, RegionHint& hint,
-                                 RegionHold& best_hold) {
+                                 ArmPosture& best_posture) {
     double best = nothing;
-    const CureFreedom& freedom = options.freedom;
-    const auto consider = [&](RegionHold hold) {
+    const RemedyFreedom& freedom = options.freedom;
+    const auto consider = [&](ArmPosture posture) {
         if (best >= options.enough) return false;
-        const double score = candidate_score(placed, std::max(options.bound, best), hint, hold);
+        const double score = candidate_score(placed, std::max(options.bound, best), hint, posture);
         if (score <= best) return false;
         best = score;
-        best_hold = hold;
+        best_posture = posture;
         return true;
     };
     if (judge_.is_gantry()) {
         consider({});
         return best;
     }
-    const bool is_free = freedom.tool_turns && judge_.turns_by_axis_6();
-    const int turns = freedom.tool_turns && !is_free ? tool_turns : 1;
-    const std::size_t branches = freedom.branches ? branches_.size() : 1;
-    const std::size_t first = freedom.branches ? hint.branch : 0;
-    for (std::size_t i = 0; i < branches; ++i) {
-        const std::size_t b = (first + i) % branches_.size();
+    const bool is_free = freedom.redundancy_angles && judge_.turns_by_axis_6();
+    const int turns = freedom.redundancy_angles && !is_free ? redundancy_angles : 1;
+    const std::size_t configurations = freedom.configurations ? configurations_.size() : 1;
+    const std::size_t first = freedom.configurations ? hint.configuration : 0;
+    for (std::size_t i = 0; i < configurations; ++i) {
+        const std::size_t b = (first + i) % configurations_.size();
         for (int turn = 0; turn < turns; ++turn) {
-            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= options.bound) hint.branch = b;
+            if (consider({configurations_[b], turn * 10 * degree, is_free}) && best >= options.bound)
+                hint.configuration = b;
         }
     }
     if (turns == 1 || best < options.bound) return best;
     for (const double step : {5 * degree, 2.5 * degree, 1.25 * degree}) {
-        const RegionHold middle = best_hold;
-        for (const double turn : {middle.tool_turn - step, middle.tool_turn + step}) {
-            consider({middle.branch, std::remainder(turn, 2 * std::numbers::pi), false});
+        const ArmPosture middle = best_posture;
+        for (const double turn : {middle.redundancy_angle - step, middle.redundancy_angle + step}) {
+            consider({middle.configuration, std::remainder(turn, 2 * std::numbers::pi), false});
         }
     }
     return best;

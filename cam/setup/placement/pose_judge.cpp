@@ -75,12 +75,12 @@ int link_of(BodyPart part) {
 // One pass over the poses of a region.
 struct PoseJudge::Walk {
     const PoseRegion& region;
-    ArmBranch branch;
+    ArmConfiguration configuration;
     Pose flange_at_origin;  // in the base, with the tip at the setup's origin
     Pose setup_in_base;
 };
 
-PoseJudge::PoseJudge(const Cell& cell, const CarvingTool& tool)
+PoseJudge::PoseJudge(const Cell& cell, const CuttingTool& tool)
     : cell_(cell), machine_(*cell.machine), feed_(tool.feed_max_mm_per_s), standing_(standing_bodies(cell)) {
     axis_bodies_ = bodies_on_axis(tool, machine_.spindle);
     on_axis_ = axis_bodies_;
@@ -95,24 +95,24 @@ StandingBlock PoseJudge::standing(const Pose& setup_in_cell, const Box& block_in
     return {setup_in_cell, placed(setup_in_cell, block_in_setup)};
 }
 
-void PoseJudge::judge(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count,
-                      RegionHold& hold, double bound, MarginTally& tally) {
+void PoseJudge::judge(const StandingBlock& block, Vec3 tool_axis, const PoseRegion& region, std::size_t count,
+                      ArmPosture& posture, double bound, MarginTally& tally) {
     assert(count <= region.poses.size());
-    const double sine = std::hypot(out.x, out.y);
+    const double sine = std::hypot(tool_axis.x, tool_axis.y);
     lowest_holder_ = std::numeric_limits<double>::infinity();
     for (const AxisBody& body : axis_bodies_) {
         if (body.part == BodyPart::tool) continue;
-        lowest_holder_ = std::min(lowest_holder_, -body.shape.from.z * out.z - sine * body.shape.radius);
+        lowest_holder_ = std::min(lowest_holder_, -body.shape.from.z * tool_axis.z - sine * body.shape.radius);
     }
     joints_.assign(count, std::nullopt);
-    Walk walk{region, hold.branch, {}, {}};
-    const Pose frame = tip_frame({}, out, hold.tool_turn);
+    Walk walk{region, posture.configuration, {}, {}};
+    const Pose frame = tip_frame({}, tool_axis, posture.redundancy_angle);
     if (arm_) {
         walk.setup_in_base = inverse(arm_->base_in_cell) * block.setup_in_cell;
         walk.flange_at_origin = walk.setup_in_base * (frame * inverse(arm_->tip_in_flange));
     }
     for (std::size_t i = 0; i < count && tally.score() >= bound; ++i) {
-        const CarvingPose& pose = region.poses[i];
+        const MillingPose& pose = region.poses[i];
         tally.set_pose(i);
         if (lowest_holder_ < 1e9) tally.add(PoseCheck::holder_to_block, pose.tip.z + lowest_holder_, {});
         if (arm_) {
@@ -122,27 +122,27 @@ void PoseJudge::judge(const StandingBlock& block, Vec3 out, const PoseRegion& re
             judge_pose(block, std::max(feed_, link_feed), *joints_[i], bound, tally);
             if (tally.score() < bound) continue;
         } else {
-            judge_travel(apply(block.setup_in_cell, pose.tip), rotate(block.setup_in_cell, out), tally);
+            judge_travel(apply(block.setup_in_cell, pose.tip), rotate(block.setup_in_cell, tool_axis), tally);
         }
-        place_axis(apply(block.setup_in_cell, pose.tip), rotate(block.setup_in_cell, out));
+        place_axis(apply(block.setup_in_cell, pose.tip), rotate(block.setup_in_cell, tool_axis));
         judge_tool(block, false, tally);
     }
-    if (arm_ && tally.score() >= bound) finish_turning_axes(hold, tally);
+    if (arm_ && tally.score() >= bound) finish_turning_axes(posture, tally);
 }
 
-void PoseJudge::judge_travel(Vec3 tip, Vec3 out, MarginTally& tally) const {
-    const double upright = std::hypot(out.x, out.y) < 1e-6 && out.z > 0 ? 0 : -1;
+void PoseJudge::judge_travel(Vec3 tip, Vec3 tool_axis, MarginTally& tally) const {
+    const double upright = std::hypot(tool_axis.x, tool_axis.y) < 1e-6 && tool_axis.z > 0 ? 0 : -1;
     for (int axis = 0; axis < 3; ++axis) {
         const auto number = code(static_cast<std::size_t>(axis));
-        tally.add(PoseCheck::travel, tip[axis] - cell_.reach.min[axis], {number, 0});
-        tally.add(PoseCheck::travel, cell_.reach.max[axis] - tip[axis], {number, 1});
+        tally.add(PoseCheck::travel, tip[axis] - cell_.workspace.min[axis], {number, 0});
+        tally.add(PoseCheck::travel, cell_.workspace.max[axis] - tip[axis], {number, 1});
     }
-    if (upright < 0) tally.add(PoseCheck::travel, -1000 * std::hypot(out.x, out.y), {3, 0});
+    if (upright < 0) tally.add(PoseCheck::travel, -1000 * std::hypot(tool_axis.x, tool_axis.y), {3, 0});
 }
 
 std::optional<Joints> PoseJudge::joints_at(const Walk& walk, std::size_t index, Vec3 tip_in_base,
                                            MarginTally& tally) const {
-    const CarvingPose& pose = walk.region.poses[index];
+    const MillingPose& pose = walk.region.poses[index];
     const std::optional<Joints>* beside = pose.beside == index ? nullptr : &joints_[pose.beside];
     if (beside != nullptr && !*beside) beside = joints_.front() ? &joints_.front() : nullptr;
     Joints wanted{};
@@ -151,10 +151,10 @@ std::optional<Joints> PoseJudge::joints_at(const Walk& walk, std::size_t index, 
     }
     const Pose flange{walk.flange_at_origin.row, walk.flange_at_origin.shift + tip_in_base};
     const ArmAnswers answers = inverse(arm_->geometry, flange, wanted);
-    const auto* answer =
-        std::find_if(answers.begin(), answers.end(), [&](const ArmAnswer& a) { return a.branch == walk.branch; });
+    const auto* answer = std::find_if(answers.begin(), answers.end(),
+                                      [&](const ArmAnswer& a) { return a.configuration == walk.configuration; });
     if (answer == answers.end()) {
-        tally.add(PoseCheck::reach, lack_of_reach(arm_->geometry, flange, walk.branch.is_back), {});
+        tally.add(PoseCheck::reach, lack_of_reach(arm_->geometry, flange, walk.configuration.is_back), {});
         return std::nullopt;
     }
     Joints joints = answer->joints;
@@ -225,10 +225,10 @@ void PoseJudge::place_links(const Joints& joints) {
     }
 }
 
-void PoseJudge::place_axis(Vec3 tip, Vec3 out) {
+void PoseJudge::place_axis(Vec3 tip, Vec3 tool_axis) {
     for (std::size_t i = 0; i < axis_bodies_.size(); ++i) {
-        on_axis_[i].shape.from = tip - axis_bodies_[i].shape.from.z * out;
-        on_axis_[i].shape.to = tip - axis_bodies_[i].shape.to.z * out;
+        on_axis_[i].shape.from = tip - axis_bodies_[i].shape.from.z * tool_axis;
+        on_axis_[i].shape.to = tip - axis_bodies_[i].shape.to.z * tool_axis;
     }
 }
 
@@ -282,7 +282,7 @@ void PoseJudge::judge_tool(const StandingBlock& block, bool is_home, MarginTally
 }
 
 // Axis 4 by whole turns into the middle of its range; axis 6 too, or freely.
-void PoseJudge::finish_turning_axes(RegionHold& hold, MarginTally& tally) {
+void PoseJudge::finish_turning_axes(ArmPosture& posture, MarginTally& tally) {
     for (const std::size_t axis : {axis_4, axis_6}) {
         JointExtent extent;
         bool is_first = true;
@@ -296,10 +296,11 @@ void PoseJudge::finish_turning_axes(RegionHold& hold, MarginTally& tally) {
         if (is_first) return;
         const JointRange& range = arm_->ranges[axis];
         double shift = 0.5 * (range.min + range.max - extent.min - extent.max);
-        const bool is_free = axis == axis_6 && hold.turns_freely;
+        const bool is_free = axis == axis_6 && posture.turns_freely;
         if (!is_free) shift = nearest_turn(0, shift);
         if (is_free) {
-            hold.tool_turn = std::remainder(hold.tool_turn + arm_->geometry.sign[axis] * shift, full_turn);
+            posture.redundancy_angle =
+                std::remainder(posture.redundancy_angle + arm_->geometry.sign[axis] * shift, full_turn);
         }
         for (std::optional<Joints>& joints : joints_) {
             if (joints) (*joints)[axis] += shift;

@@ -13,30 +13,30 @@
 
 #include "cam/cell/machine_bodies.h"
 #include "cam/cell/reach_map.h"
-#include "cam/setup/placement/carving_poses.h"
+#include "cam/setup/placement/machine_reachability.h"
 #include "cam/setup/placement/margin_tally.h"
-#include "cam/setup/placement/work_envelope.h"
+#include "cam/setup/placement/milling_poses.h"
 
 namespace qchopper {
 
-// Where the block stands while one direction is carved.
+// Where the block stands while one direction is milled.
 struct StandingBlock {
     Pose setup_in_cell;
     PlacedBox block;
 };
 
 // How a region is to be held.
-struct RegionHold {
-    ArmBranch branch;
-    double tool_turn = 0;
-    // Where a turn about the tool axis moves axis 6 alone: that it is chosen so that axis 6 stays in the middle.
+struct ArmPosture {
+    ArmConfiguration configuration;
+    double redundancy_angle = 0;
+    // Where a redundancy angle moves axis 6 alone: that it is chosen so that axis 6 stays in the middle.
     bool turns_freely = false;
 };
 
 class PoseJudge {
  public:
     // Precondition: the cell has a machine; it outlives this object, as the tool does.
-    PoseJudge(const Cell& cell, const CarvingTool& tool);
+    PoseJudge(const Cell& cell, const CuttingTool& tool);
 
     bool is_gantry() const { return !arm_.has_value(); }
     // Whether the tool axis is the axis of joint 6, so that a turn about it moves that joint alone.
@@ -45,9 +45,9 @@ class PoseJudge {
     StandingBlock standing(const Pose& setup_in_cell, const Box& block_in_setup) const;
 
     // Adds the margins of the first `count` poses of a region to the tally. Ends early, with some of them not added,
-    // once the score is below `bound`. With turns_freely, `hold` gets the turn.
-    void judge(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count, RegionHold& hold,
-               double bound, MarginTally& tally);
+    // once the score is below `bound`. With turns_freely, `posture` gets the turn.
+    void judge(const StandingBlock& block, Vec3 tool_axis, const PoseRegion& region, std::size_t count,
+               ArmPosture& posture, double bound, MarginTally& tally);
     // The joints of the poses of the last judge(), as far as it came; nothing for a pose that is not reached.
     const std::vector<std::optional<Joints>>& joints() const { return joints_; }
 
@@ -67,16 +67,16 @@ class PoseJudge {
 
     std::optional<Joints> joints_at(const Walk& walk, std::size_t index, Vec3 tip_in_base, MarginTally& tally) const;
     void judge_pose(const StandingBlock& block, double feed, const Joints& joints, double bound, MarginTally& tally);
-    void judge_travel(Vec3 tip, Vec3 out, MarginTally& tally) const;
+    void judge_travel(Vec3 tip, Vec3 tool_axis, MarginTally& tally) const;
     void judge_limit(std::size_t axis, double joint, std::uint16_t side, MarginTally& tally) const;
     void judge_singularity(const Joints& joints, MarginTally& tally) const;
     void judge_speed(const Joints& joints, double feed, MarginTally& tally) const;
     void judge_links(const StandingBlock& block, MarginTally& tally) const;
     void judge_tool(const StandingBlock& block, bool is_home, MarginTally& tally) const;
-    void finish_turning_axes(RegionHold& hold, MarginTally& tally);
+    void finish_turning_axes(ArmPosture& posture, MarginTally& tally);
     // Fill links_ and on_axis_.
     void place_links(const Joints& joints);
-    void place_axis(Vec3 tip, Vec3 out);
+    void place_axis(Vec3 tip, Vec3 tool_axis);
 
     const Cell& cell_;
     const CellMachine& machine_;

@@ -14,10 +14,10 @@
 
 namespace qchopper {
 
-constexpr std::uint64_t most_points = std::numeric_limits<std::uint32_t>::max() - 1;  // point indices have 32 bits
-constexpr std::size_t most_triangles = 0x55555554;                                    // half-edge indices have 32 bits
+constexpr std::uint64_t max_points = std::numeric_limits<std::uint32_t>::max() - 1;  // point indices have 32 bits
+constexpr std::size_t max_triangles = 0x55555554;                                    // half-edge indices have 32 bits
 // Corners of one face: more than any scanner or modeller writes. The time for splitting grows faster than the square.
-constexpr std::int64_t most_corners = 1000;
+constexpr std::int64_t max_corners = 1000;
 
 // Counts the face in faces_in_file and appends its triangles (polygon.h). A face with fewer than three corners is
 // counted in faces_without_area and makes none. Precondition: every corner is the index of a point of the scan.

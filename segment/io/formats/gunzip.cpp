@@ -31,7 +31,7 @@ struct Inflater {
 
 }  // namespace
 
-std::uint64_t most_unpacked(std::uint64_t packed) {
+std::uint64_t max_unpacked(std::uint64_t packed) {
     constexpr std::uint64_t mebi = 1 << 20;
     return std::clamp(200 * packed, 64 * mebi, 8192 * mebi);
 }
@@ -43,15 +43,15 @@ bool is_gzip(const Bytes& bytes) {
 Bytes gunzip(const Bytes& bytes, const std::string& name) {
     Inflater inflater;
     z_stream& stream = inflater.stream;
-    const std::uint64_t most = most_unpacked(bytes.size());
+    const std::uint64_t most = max_unpacked(bytes.size());
     std::size_t used = 0;  // packed bytes that zlib has been given
     Bytes unpacked;
     std::size_t filled = 0;
     while (true) {
         if (stream.avail_in == 0) {
-            constexpr std::size_t most_given = std::numeric_limits<uInt>::max();
+            constexpr std::size_t max_given = std::numeric_limits<uInt>::max();
             stream.next_in = const_cast<Bytef*>(bytes.data() + used);  // zlib only reads
-            stream.avail_in = static_cast<uInt>(std::min(most_given, bytes.size() - used));
+            stream.avail_in = static_cast<uInt>(std::min(max_given, bytes.size() - used));
             used += stream.avail_in;
         }
         if (filled == unpacked.size()) {

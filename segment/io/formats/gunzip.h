@@ -14,13 +14,13 @@ namespace qchopper {
 
 // The most bytes that so many packed bytes may unpack to: 200 times as many (scans shrink to a twentieth at most), at
 // least 64 MiB and at most 8 GiB.
-std::uint64_t most_unpacked(std::uint64_t packed);
+std::uint64_t max_unpacked(std::uint64_t packed);
 
 // Whether the bytes begin with the marks of gzip and of deflate, its only method.
 bool is_gzip(const Bytes& bytes);
 
 // The contents of all members, one after the other. Precondition: is_gzip(bytes). Throws InputError (mesh) if a member
-// is damaged or cut short, or if they unpack to more than most_unpacked(bytes.size()); `name` stands for the file.
+// is damaged or cut short, or if they unpack to more than max_unpacked(bytes.size()); `name` stands for the file.
 Bytes gunzip(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

@@ -211,13 +211,13 @@ class ModelHandler : public XmlHandler {
 
     void add_point(Attributes attributes) {
         if (object_ == nullptr) refuse("a vertex outside any object");
-        if (object_->points.size() == most_placed) refuse("more than 50 million points");
+        if (object_->points.size() == max_placed) refuse("more than 50 million points");
         object_->points.push_back({real(attributes, "x"), real(attributes, "y"), real(attributes, "z")});
     }
 
     void add_triangle(Attributes attributes) {
         if (object_ == nullptr) refuse("a triangle outside any object");
-        if (object_->triangles.size() == most_placed) refuse("more than 50 million triangles");
+        if (object_->triangles.size() == max_placed) refuse("more than 50 million triangles");
         object_->triangles.push_back({whole(attributes, "v1"), whole(attributes, "v2"), whole(attributes, "v3")});
     }
 
@@ -260,7 +260,7 @@ class ModelHandler : public XmlHandler {
     std::uint32_t whole(Attributes attributes, const char* attribute) const {
         const std::string_view word = value_of(attributes, attribute).value_or("");
         const std::optional<std::int64_t> value = integer(Text(word).word());
-        if (!value || *value < 0 || *value > static_cast<std::int64_t>(most_points)) refuse(fault_of(attribute, word));
+        if (!value || *value < 0 || *value > static_cast<std::int64_t>(max_points)) refuse(fault_of(attribute, word));
         return static_cast<std::uint32_t>(*value);
     }
 

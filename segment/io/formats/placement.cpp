@@ -23,7 +23,7 @@ bool is_mirroring(const Placement& placement) {
 std::uint32_t place_points(RawMesh& scan, const std::vector<Vec3>& points, const Placement& placement,
                            const std::string& what) {
     const std::size_t first = scan.mesh.points.size();
-    if (points.size() > most_placed - first) {
+    if (points.size() > max_placed - first) {
         throw InputError(InputFault::mesh,
                          what + ": with all its repetitions the scene has more than 50 million points",
                          "export only what is to be carved");

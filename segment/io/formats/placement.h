@@ -29,10 +29,10 @@ Placement operator*(const Placement& outer, const Placement& inner);
 bool is_mirroring(const Placement& placement);
 
 // Limit of the points of a scene with all repetitions, and of its triangles.
-constexpr std::size_t most_placed = 50'000'000;
+constexpr std::size_t max_placed = 50'000'000;
 
-// Appends the mapped points and returns the index of the first. Precondition: the scan has at most most_placed points.
-// Throws InputError (mesh) if it would have more than most_placed, or if a mapped coordinate is not finite; `what`
+// Appends the mapped points and returns the index of the first. Precondition: the scan has at most max_placed points.
+// Throws InputError (mesh) if it would have more than max_placed, or if a mapped coordinate is not finite; `what`
 // names the part.
 std::uint32_t place_points(RawMesh& scan, const std::vector<Vec3>& points, const Placement& placement,
                            const std::string& what);

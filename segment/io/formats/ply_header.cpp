@@ -27,7 +27,7 @@ constexpr std::array<TypeName, 8> type_names{{{"char", "int8", PlyType::i8, 1},
                                               {"float", "float32", PlyType::f32, 4},
                                               {"double", "float64", PlyType::f64, 8}}};
 
-constexpr std::size_t most_elements = 100;
+constexpr std::size_t max_elements = 100;
 
 // Reads the header line by line; every fault is refused with its line.
 class HeaderReader {
@@ -91,7 +91,7 @@ class HeaderReader {
         PlyElement element;
         element.name = words.word();
         const std::optional<std::int64_t> count = integer(words.word());
-        if (header_.elements.size() == most_elements) refuse("more than 100 elements");
+        if (header_.elements.size() == max_elements) refuse("more than 100 elements");
         if (element.name.empty() || !count || *count < 0) refuse("an element needs a name and a count");
         for (const PlyElement& other : header_.elements) {
             if (other.name == element.name) refuse("a second element \"" + element.name + "\"");

@@ -18,8 +18,8 @@
 namespace qchopper {
 namespace {
 
-constexpr int most_depth = 100;               // of components in components
-constexpr std::size_t most_visits = 100'000;  // of objects: empty ones add no points and need a limit too
+constexpr int max_depth = 100;               // of components in components
+constexpr std::size_t max_visits = 100'000;  // of objects: empty ones add no points and need a limit too
 constexpr const char* export_again = "export or copy the file again";
 
 std::string without_slash(const std::string& path) {
@@ -29,7 +29,7 @@ std::string without_slash(const std::string& path) {
 // The parts of a package.
 class Package {
  public:
-    Package(const Bytes& bytes, const std::string& name) : name_(name), most_(most_unpacked(bytes.size())) {
+    Package(const Bytes& bytes, const std::string& name) : name_(name), most_(max_unpacked(bytes.size())) {
         zip_error_t error;
         zip_error_init(&error);
         zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -145,7 +145,7 @@ class Builder {
     }
 
     void visit(const Reference3mf& reference, const std::string& from, const Placement& outer, int depth) {
-        if (depth > most_depth || ++visits_ > most_visits) {
+        if (depth > max_depth || ++visits_ > max_visits) {
             refuse(": its components contain each other without end", "export the parts as plain objects");
         }
         const std::string path = reference.path.empty() ? from : without_slash(reference.path);
@@ -179,7 +179,7 @@ class Builder {
             points += placed.object->points.size();
             triangles += placed.object->triangles.size();
         }
-        if (points > most_placed || triangles > most_placed) {
+        if (points > max_placed || triangles > max_placed) {
             refuse(": with all its repetitions there are more than 50 million points or triangles",
                    "export only what is to be carved");
         }

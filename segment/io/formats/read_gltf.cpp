@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double mm_per_metre = 1000;
 constexpr Placement z_up{{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}, {}};
-constexpr int most_depth = 1000;  // of nodes in nodes
+constexpr int max_depth = 1000;  // of nodes in nodes
 constexpr const char* export_again = "export the scan again";
 
 // The buffer files that tinygltf reads through callbacks. Its error texts hold no reason, so the first fault is kept
@@ -140,7 +140,7 @@ class SceneReader {
         const std::string what = "node " + std::to_string(index);
         const tinygltf::Node& node = item_at(model_.nodes, index, "there is no " + what);
         if (is_seen_[n]) refuse(what + " occurs twice in the scene");
-        if (depth > most_depth) refuse(what + " lies more than " + std::to_string(most_depth) + " nodes deep");
+        if (depth > max_depth) refuse(what + " lies more than " + std::to_string(max_depth) + " nodes deep");
         is_seen_[n] = true;
         const Placement placement = outer * placement_of(node);
         if (node.mesh >= 0) {
@@ -215,7 +215,7 @@ class SceneReader {
         if (is_list && count % 3 != 0)
             refuse(what + " has " + std::to_string(count) + " corners, which is no multiple of 3");
         const std::size_t triangles = is_list ? count / 3 : count < 3 ? 0 : count - 2;
-        if (triangles > most_placed - scan_.mesh.triangles.size()) {
+        if (triangles > max_placed - scan_.mesh.triangles.size()) {
             refuse("with all its repetitions the scene has more than 50 million triangles");
         }
         for (std::size_t t = 0; t < triangles; ++t) {
@@ -241,7 +241,7 @@ class SceneReader {
             refuse(what + " has points of another type than three numbers");
         }
         if (accessor.bufferView < 0 && !accessor.sparse.isSparse) refuse(what + " has points without numbers");
-        if (accessor.count > most_placed) refuse(what + " has more than 50 million points");
+        if (accessor.count > max_placed) refuse(what + " has more than 50 million points");
         const auto read = [&](const GltfNumbers& from, std::size_t i) {
             return Vec3{from.real(i, 0, accessor.normalized), from.real(i, 1, accessor.normalized),
                         from.real(i, 2, accessor.normalized)};

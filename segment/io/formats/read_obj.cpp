@@ -98,7 +98,7 @@ class ObjReader {
         scan_.format = MeshFormat::obj;
         while (const std::optional<std::string_view> line = lines_.next()) read_line(*line);
         add_early_faces();
-        if (scan_.mesh.triangles.size() > most_triangles) refuse("more than 1.4 billion triangles");
+        if (scan_.mesh.triangles.size() > max_triangles) refuse("more than 1.4 billion triangles");
         warn_of_unknown_lines();
         if (curved_ > 0) {
             scan_.warnings.push_back(std::to_string(curved_) +
@@ -138,7 +138,7 @@ class ObjReader {
 
     // x y z; a weight or a colour may follow and is ignored.
     void read_point(Text& words) {
-        if (scan_.mesh.points.size() == most_points) refuse("more than 4 billion points");
+        if (scan_.mesh.points.size() == max_points) refuse("more than 4 billion points");
         Vec3 point;
         for (int axis = 0; axis < 3; ++axis) {
             const std::string_view word = words.word();
@@ -155,8 +155,8 @@ class ObjReader {
         corners_.clear();
         bool is_early = false;
         for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-            if (corners_.size() == static_cast<std::size_t>(most_corners)) {
-                refuse("a face has more than " + std::to_string(most_corners) + " corners");
+            if (corners_.size() == static_cast<std::size_t>(max_corners)) {
+                refuse("a face has more than " + std::to_string(max_corners) + " corners");
             }
             corners_.push_back(corner(word));
             is_early |= corners_.back() >= scan_.mesh.points.size();
@@ -188,7 +188,7 @@ class ObjReader {
         if (!first || !rest.empty()) refuse("a corner cannot be " + quoted(word));
         const auto count = static_cast<std::int64_t>(scan_.mesh.points.size());
         const std::int64_t index = *first > 0 ? *first - 1 : count + *first;
-        if (*first == 0 || index < 0 || index >= static_cast<std::int64_t>(most_points))
+        if (*first == 0 || index < 0 || index >= static_cast<std::int64_t>(max_points))
             refuse(names_point(*first, scan_.mesh.points.size()));
         return static_cast<std::uint32_t>(index);
     }

@@ -87,7 +87,7 @@ class OffReader {
         }
         points_ = static_cast<std::uint64_t>(*points);
         faces_ = static_cast<std::uint64_t>(*faces);
-        if (points_ > most_points) refuse("more than 4 billion points");
+        if (points_ > max_points) refuse("more than 4 billion points");
         // three digits with a separator each for a point, one for a face, at the least
         const std::uint64_t space = text_.left() + 1;
         if (points_ > space / 6 || faces_ > space / 2 || 6 * points_ + 2 * faces_ > space) {
@@ -124,15 +124,15 @@ class OffReader {
             Text words = next_line("face " + std::to_string(f));
             const std::optional<std::int64_t> count = integer(words.word());
             if (!count || *count < 0) refuse("face " + std::to_string(f) + " should begin with its number of corners");
-            if (*count > most_corners) {
+            if (*count > max_corners) {
                 refuse("face " + std::to_string(f) + " has " + std::to_string(*count) + " corners; " +
-                       std::to_string(most_corners) + " is the most that is read");
+                       std::to_string(max_corners) + " is the most that is read");
             }
             corners.clear();
             for (std::int64_t i = 0; i < *count; ++i) corners.push_back(read_corner(words, f));
             add_face(scan_, corners);
         }
-        if (scan_.mesh.triangles.size() > most_triangles) refuse("more than 1.4 billion triangles");
+        if (scan_.mesh.triangles.size() > max_triangles) refuse("more than 1.4 billion triangles");
     }
 
     std::uint32_t read_corner(Text& words, std::uint64_t face) const {

@@ -94,7 +94,7 @@ std::optional<RawMesh> read_plain_ply(const PlyHeader& header, std::string_view 
     const std::uint64_t triangles = elements[1].count;
     const std::size_t left = file.size() - header.size;
     // false counts must not overflow the products
-    if (points > left || triangles > left || points > most_points || triangles > most_triangles) return std::nullopt;
+    if (points > left || triangles > left || points > max_points || triangles > max_triangles) return std::nullopt;
     if (left != points * layout->size + triangles * triangle_size) return std::nullopt;
     const char* const body = file.data() + header.size;
     RawMesh scan;

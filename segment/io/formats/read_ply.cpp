@@ -44,7 +44,7 @@ class PlyBody {
             refuse(values_.place() + ": more data follow than the header announces");
         }
         add_early_faces();
-        if (scan_.mesh.triangles.size() > most_triangles) refuse("more than 1.4 billion triangles");
+        if (scan_.mesh.triangles.size() > max_triangles) refuse("more than 1.4 billion triangles");
         return std::move(scan_);
     }
 
@@ -56,7 +56,7 @@ class PlyBody {
             const bool is_surface = element.name == "face" || element.name == "tristrips";
             if (is_surface && element.count > 0) has_faces = true;
         }
-        if (point_count_ > most_points) refuse("more than 4 billion points");
+        if (point_count_ > max_points) refuse("more than 4 billion points");
         if (!has_faces) {
             throw InputError(InputFault::mesh, name_ + " holds no faces",
                              "export the scan as a surface, not as points");
@@ -147,9 +147,9 @@ class PlyBody {
     void read_corners(const PlyProperty& property, std::uint64_t face) {
         const std::optional<std::int64_t> count = values_.whole(property.count_type);
         if (!count || *count < 0) refuse_value("face", face, "number of corners");
-        if (*count > most_corners) {
+        if (*count > max_corners) {
             refuse("face " + std::to_string(face) + " (" + values_.place() + ") has " + std::to_string(*count) +
-                   " corners; " + std::to_string(most_corners) + " is the most that is read");
+                   " corners; " + std::to_string(max_corners) + " is the most that is read");
         }
         corners_.clear();
         for (std::int64_t i = 0; i < *count; ++i)

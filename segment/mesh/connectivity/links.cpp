@@ -46,14 +46,14 @@ OppositeEdge opposite_edge(const TriangleMesh& mesh, std::uint32_t corner) {
     return {t[k == 2 ? 0 : k + 1], t[k == 0 ? 2 : k - 1]};
 }
 
-constexpr std::size_t most_in_ring = 32;
+constexpr std::size_t max_in_ring = 32;
 
 // Whether the triangles around a point form one ring: the `last` of each is the `next` of the following one. Then every
 // edge from the point has two triangles of opposite direction: a `next` that occurs twice would be found only once.
 bool is_one_ring(const TriangleMesh& mesh, const std::uint32_t* corner, std::size_t count) {
-    if (count < 3 || count > most_in_ring) return false;
-    std::array<std::uint32_t, most_in_ring> next;
-    std::array<std::uint32_t, most_in_ring> last;
+    if (count < 3 || count > max_in_ring) return false;
+    std::array<std::uint32_t, max_in_ring> next;
+    std::array<std::uint32_t, max_in_ring> last;
     for (std::size_t i = 0; i < count; ++i) {
         const OppositeEdge edge = opposite_edge(mesh, corner[i]);
         next[i] = edge.next;

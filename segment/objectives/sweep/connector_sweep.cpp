@@ -23,7 +23,7 @@ class PlaneJoints {
         first_loop_ = s.section.first_loop[plane];
         std::map<std::array<std::uint32_t, 2>, std::size_t> known;
         for (const SectionRegion& region : s.regions[plane]) {
-            if (region.area_mm2 < least_joint_mm2) continue;
+            if (region.area_mm2 < min_joint_mm2) continue;
             const std::array<std::uint32_t, 2> solids = options.form == ConnectorForm::spread
                                                             ? region.solid
                                                             : std::array{static_cast<std::uint32_t>(known.size()), 0U};
@@ -104,7 +104,7 @@ void add_connector(const PreparedPiece& prepared, Vec3 normal, std::span<const d
         std::vector<JointMeasure> all = joints.joints();
         for (const auto& sides : old) {
             for (const JointMeasure& side : sides[plane]) {
-                if (side.area_mm2 >= least_joint_mm2) all.push_back(side);
+                if (side.area_mm2 >= min_joint_mm2) all.push_back(side);
             }
         }
         evaluations[plane]->connector = connector_of(all, options);

@@ -20,7 +20,7 @@
 
 namespace qchopper {
 
-constexpr double least_joint_mm2 = 400;
+constexpr double min_joint_mm2 = 400;
 
 // Fills in `connector` of the evaluations, one per offset. O(points + triangles), and the places that are asked.
 void add_connector(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,

@@ -154,7 +154,7 @@ std::vector<SectionRegion> regions(const Section& section, std::size_t plane) {
             }
             std::reverse(loops[k].begin(), loops[k].end());
         }
-        nested = nest(points, loops);
+        nested = nest_polygons(points, loops);
     }
     std::vector<SectionRegion> result;
     for (const CapRegion& region : nested) {

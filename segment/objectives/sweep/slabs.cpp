@@ -29,7 +29,7 @@ class Packing {
     std::uint32_t pack(std::uint32_t slab, std::uint32_t label) const { return (slab << label_bits_) | label; }
     std::uint32_t slab(std::uint32_t word) const { return slab_bits_ == 0 ? 0 : word >> label_bits_; }
     std::uint32_t label(std::uint32_t word) const { return slab_bits_ == 0 ? word : word & ((1U << label_bits_) - 1); }
-    std::size_t most_labels() const { return std::size_t{1} << label_bits_; }
+    std::size_t max_labels() const { return std::size_t{1} << label_bits_; }
 
  private:
     unsigned slab_bits_ = 0;
@@ -83,7 +83,7 @@ class SlabPass {
 
     Slabs run() {
         label_points();
-        assert(label_slab_.size() <= packing_.most_labels());
+        assert(label_slab_.size() <= packing_.max_labels());
         for (SumTable* table : {&inside_, &above_, &below_}) *table = SumTable(label_slab_.size(), p_.up.size());
         for (std::size_t c = 0; c < p_.clusters.count(); ++c) {
             if (is_in_one_slab(points_of(c))) {

@@ -23,7 +23,7 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr int rings = 3;
-constexpr std::size_t most_edges_for_full_search = 400;  // as in fill_holes.cpp
+constexpr std::size_t max_edges_for_full_search = 400;  // as in fill_holes.cpp
 
 struct Strip {
     Surface surface;
@@ -90,7 +90,7 @@ std::optional<FairFill> fair_hole(const TriangleMesh& mesh, std::span<const std:
     std::vector<Surface::Vertex_index> vertices;
     pmp::triangulate_refine_and_fair_hole(
         surface, border, std::back_inserter(faces), std::back_inserter(vertices),
-        pmp::parameters::fairing_continuity(1).do_not_use_cubic_algorithm(loop.size() > most_edges_for_full_search));
+        pmp::parameters::fairing_continuity(1).do_not_use_cubic_algorithm(loop.size() > max_edges_for_full_search));
     if (faces.empty()) return std::nullopt;
     FairFill fill;
     std::sort(vertices.begin(), vertices.end());

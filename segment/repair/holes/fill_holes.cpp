@@ -31,7 +31,7 @@ struct FillTraits : OpenMesh::DefaultTraits {
 using Surface = OpenMesh::TriMesh_ArrayKernelT<FillTraits>;
 
 // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
-constexpr std::size_t most_edges_for_full_search = 400;
+constexpr std::size_t max_edges_for_full_search = 400;
 
 // Returns false where the mesh is no manifold that half-edges can hold.
 bool build(const TriangleMesh& mesh, Surface& surface) {
@@ -55,7 +55,7 @@ std::vector<Surface::FaceHandle> fill(Surface& surface, Surface::HalfedgeHandle 
     std::vector<Surface::FaceHandle> added;
     CGAL::Polygon_mesh_processing::triangulate_hole(
         surface, border, std::back_inserter(added),
-        CGAL::parameters::do_not_use_cubic_algorithm(edges > most_edges_for_full_search));
+        CGAL::parameters::do_not_use_cubic_algorithm(edges > max_edges_for_full_search));
     return added;
 }
 

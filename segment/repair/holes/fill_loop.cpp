@@ -16,7 +16,7 @@ namespace qchopper {
 std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector<Vec3>& beyond) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
-    constexpr std::size_t most_edges_for_full_search = 200;
+    constexpr std::size_t max_edges_for_full_search = 200;
     std::vector<Kernel::Point_3> points;
     std::vector<Kernel::Point_3> thirds;
     points.reserve(loop.size());
@@ -26,7 +26,7 @@ std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector
     std::vector<CGAL::Triple<int, int, int>> found;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         points, thirds, std::back_inserter(found),
-        CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > most_edges_for_full_search));
+        CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > max_edges_for_full_search));
     std::vector<Triangle> triangles;
     for (const auto& [a, b, c] : found) {
         Triangle t{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};

@@ -119,7 +119,7 @@ class Searching {
                 result.is_complete &= !task.is_over;
             }
             if (end < subtrees &&
-                (comparisons > options_.most_comparisons || result.pairs.size() > options_.most_pairs)) {
+                (comparisons > options_.max_comparisons || result.pairs.size() > options_.max_pairs)) {
                 result.is_complete = false;
             }
             context.progress("places searched for self-intersections", end, subtrees);
@@ -176,8 +176,8 @@ class Searching {
     // Two nodes of one level.
     void between(std::size_t a, std::size_t b, Task& task) const {
         ++task.comparisons;
-        task.is_over |= task.pairs.size() > options_.most_pairs / per_wave ||
-                        task.comparisons > options_.most_comparisons / per_wave;
+        task.is_over |=
+            task.pairs.size() > options_.max_pairs / per_wave || task.comparisons > options_.max_comparisons / per_wave;
         if (task.is_over || !do_meet(tree_.of_node[a], tree_.of_node[b])) return;
         if (a < tree_.leaves) {
             between(2 * a, 2 * b, task);

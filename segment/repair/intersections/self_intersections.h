@@ -20,8 +20,8 @@ namespace qchopper {
 
 struct SelfIntersectionOptions {
     // The search ends soon after so many pairs are found or so many boxes compared: in a soup all may meet all.
-    std::size_t most_pairs = 4'000'000;
-    std::size_t most_comparisons = 5'000'000'000;
+    std::size_t max_pairs = 4'000'000;
+    std::size_t max_comparisons = 5'000'000'000;
 };
 
 struct SelfIntersections {

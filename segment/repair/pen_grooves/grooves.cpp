@@ -104,9 +104,9 @@ std::vector<Groove> groups(const Neighbours& next, const std::vector<GrooveKind>
 }
 
 bool is_line(const Groove& groove, const GrooveLimits& limits) {
-    constexpr double least_slenderness = 4;
-    return groove.depth <= limits.most_depth && groove.width <= limits.most_width &&
-           groove.length >= limits.least_length && groove.length >= least_slenderness * groove.width;
+    constexpr double min_slenderness = 4;
+    return groove.depth <= limits.max_depth && groove.width <= limits.max_width && groove.length >= limits.min_length &&
+           groove.length >= min_slenderness * groove.width;
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ enum class GrooveKind : std::uint8_t {
 };
 
 struct GrooveLimits {
-    double most_width = 0;
-    double most_depth = 0;
-    double least_length = 0;
+    double max_width = 0;
+    double max_depth = 0;
+    double min_length = 0;
 };
 
 struct Groove {

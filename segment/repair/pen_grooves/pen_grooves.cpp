@@ -24,14 +24,14 @@ constexpr double coarsest_in_widths = 0.4;  // mean edge: with fewer than three 
 constexpr double seed_in_roughness = 4;     // depth that noise does not reach
 constexpr double flank_in_roughness = 1;
 constexpr double mean_in_roughness = 5.7;  // mean depth of a whole pen groove
-constexpr double least_known = 0.9;        // share of its points with good fits
-constexpr double most_growth = 1.2;        // of its depth: between crests of the bone it grows with the reach
-constexpr double least_depth_mm = 0.02;
+constexpr double min_known = 0.9;          // share of its points with good fits
+constexpr double max_growth = 1.2;         // of its depth: between crests of the bone it grows with the reach
+constexpr double min_depth_mm = 0.02;
 
 void check(const PenGrooveOptions& o) {
     const auto is_length = [](double mm) { return std::isfinite(mm) && mm >= 0; };
-    if (is_length(o.most_width) && is_length(o.most_depth) && is_length(o.least_depth) && is_length(o.least_length) &&
-        o.most_width > 0 && o.most_depth > o.least_depth) {
+    if (is_length(o.max_width) && is_length(o.max_depth) && is_length(o.min_depth) && is_length(o.min_length) &&
+        o.max_width > 0 && o.max_depth > o.min_depth) {
         return;
     }
     throw InputError(InputFault::use, "no pen groove has this width and depth",
@@ -90,7 +90,7 @@ struct NearAndFarFits {
 
 // Whether the surface around the groove is known and smooth compared with the depth of the groove, and the depth does
 // not depend on the reach: in a valley of the bone it would.
-bool is_distinct(const Groove& groove, const NearAndFarFits& fits, double most_depth) {
+bool is_distinct(const Groove& groove, const NearAndFarFits& fits, double max_depth) {
     double near = 0;
     double far = 0;
     double roughness = 0;
@@ -104,16 +104,16 @@ bool is_distinct(const Groove& groove, const NearAndFarFits& fits, double most_d
         roughness += fits.near[i].roughness;
         ++known;
     }
-    return static_cast<double>(known) >= least_known * static_cast<double>(groove.points.size()) &&
-           near >= mean_in_roughness * roughness && far <= most_growth * near && near <= most_growth * far &&
-           deepest <= most_depth;
+    return static_cast<double>(known) >= min_known * static_cast<double>(groove.points.size()) &&
+           near >= mean_in_roughness * roughness && far <= max_growth * near && near <= max_growth * far &&
+           deepest <= max_depth;
 }
 
 GrooveLimits limits_of(const PenGrooveOptions& o) {
     GrooveLimits limits;
-    limits.most_width = o.most_width;
-    limits.most_depth = o.most_depth;
-    limits.least_length = o.least_length > 0 ? o.least_length : 3 * o.most_width;
+    limits.max_width = o.max_width;
+    limits.max_depth = o.max_depth;
+    limits.min_length = o.min_length > 0 ? o.min_length : 3 * o.max_width;
     return limits;
 }
 
@@ -123,8 +123,8 @@ std::vector<GrooveKind> kinds_of(const std::vector<SurfaceFit>& fits, const PenG
     for (std::size_t i = 0; i < fits.size(); ++i) {
         if (!fits[i].is_good) continue;
         const double least =
-            o.least_depth > 0 ? o.least_depth : std::max(least_depth_mm, seed_in_roughness * fits[i].roughness);
-        const double flank = std::max(0.25 * least_depth_mm, flank_in_roughness * fits[i].roughness);
+            o.min_depth > 0 ? o.min_depth : std::max(min_depth_mm, seed_in_roughness * fits[i].roughness);
+        const double flank = std::max(0.25 * min_depth_mm, flank_in_roughness * fits[i].roughness);
         if (fits[i].depth >= least) {
             kinds[i] = GrooveKind::seed;
         } else if (fits[i].depth >= std::min(flank, 0.5 * least)) {
@@ -156,7 +156,7 @@ void lift(TriangleMesh& mesh, const std::vector<Groove>& grooves, const std::vec
             mesh.points[i] = lifted;
             is_moved[i] = 1;
             ++report.points_moved;
-            report.most_depth = std::max(report.most_depth, fit.depth);
+            report.max_depth = std::max(report.max_depth, fit.depth);
             sum += fit.depth;
         }
     }
@@ -175,12 +175,12 @@ PenGrooveReport smooth_pen_grooves(TriangleMesh& mesh, const PenGrooveOptions& o
     check(options);
     PenGrooveReport report;
     if (mesh.triangles.empty()) return report;
-    if (mean_edge(mesh) > coarsest_in_widths * options.most_width) {
+    if (mean_edge(mesh) > coarsest_in_widths * options.max_width) {
         report.is_too_coarse = true;
         return report;
     }
-    const double spacing = options.most_width / 5;
-    const SurfaceFitter near(mesh, near_in_widths * options.most_width, spacing);
+    const double spacing = options.max_width / 5;
+    const SurfaceFitter near(mesh, near_in_widths * options.max_width, spacing);
     context.progress("surface fits for pen grooves", 0, 2);
     const std::vector<SurfaceFit> first = fits(near, mesh.points.size(), context);
     context.progress("surface fits for pen grooves", 1, 2);
@@ -191,9 +191,9 @@ PenGrooveReport smooth_pen_grooves(TriangleMesh& mesh, const PenGrooveOptions& o
         for (const std::uint32_t i : groove.points) is_in_groove[i] = 1;
     }
     widen(mesh, grooves);
-    const SurfaceFitter far(mesh, far_in_widths * options.most_width, spacing);
+    const SurfaceFitter far(mesh, far_in_widths * options.max_width, spacing);
     const NearAndFarFits second{fits_without(near, grooves, is_in_groove), fits_without(far, grooves, is_in_groove)};
-    std::erase_if(grooves, [&](const Groove& groove) { return !is_distinct(groove, second, options.most_depth); });
+    std::erase_if(grooves, [&](const Groove& groove) { return !is_distinct(groove, second, options.max_depth); });
     context.progress("surface fits for pen grooves", 2, 2);
     lift(mesh, grooves, second.near, report);
     return report;

@@ -15,10 +15,10 @@ namespace qchopper {
 
 // What a pen groove is. The defaults are those of a marker pen; a wider or deeper groove counts as part of the bone.
 struct PenGrooveOptions {
-    double most_width = 6;    // across the line; above 0
-    double most_depth = 1;    // of the bottom below the surface around it; above least_depth
-    double least_depth = 0;   // of the bottom; 0: four times the roughness around, and at least 0.02 mm
-    double least_length = 0;  // of the line; 0: three times most_width
+    double max_width = 6;   // across the line; above 0
+    double max_depth = 1;   // of the bottom below the surface around it; above min_depth
+    double min_depth = 0;   // of the bottom; 0: four times the roughness around, and at least 0.02 mm
+    double min_length = 0;  // of the line; 0: three times max_width
 };
 
 struct PenGrooveReport {
@@ -26,13 +26,13 @@ struct PenGrooveReport {
     std::size_t points_moved = 0;
     double area_mm2 = 0;         // of the triangles with a moved corner
     double length_mm = 0;        // of all lines together
-    double most_depth = 0;       // the largest distance that a point moved
+    double max_depth = 0;        // the largest distance that a point moved
     double mean_depth = 0;       // mean over the points that moved
     Box box;                     // around all moved points
-    bool is_too_coarse = false;  // the triangles are too large for lines of most_width; nothing was searched
+    bool is_too_coarse = false;  // the triangles are too large for lines of max_width; nothing was searched
 };
 
-// Where the mean edge is longer than 0.4 of most_width, is_too_coarse is set and nothing moves. The mesh may be open.
+// Where the mean edge is longer than 0.4 of max_width, is_too_coarse is set and nothing moves. The mesh may be open.
 // Throws InputError (use) for options that are negative, not finite or out of the order above, and Cancelled before a
 // point has moved.
 PenGrooveReport smooth_pen_grooves(TriangleMesh& mesh, const PenGrooveOptions& options = {},

@@ -16,14 +16,14 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint64_t most_cells = (1U << 20) - 2;  // along an axis: a cell number has 20 bits for each
-constexpr int terms = 6;                              // 1, x, y, x2, xy, y2
-constexpr double same_side = 0.5;                     // cosine between normals of one side of a wall
+constexpr std::uint64_t max_cells = (1U << 20) - 2;  // along an axis: a cell number has 20 bits for each
+constexpr int terms = 6;                             // 1, x, y, x2, xy, y2
+constexpr double same_side = 0.5;                    // cosine between normals of one side of a wall
 
 std::uint64_t cell_at(Vec3 p, Vec3 origin, double size) {
     std::uint64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double at = std::clamp((p[axis] - origin[axis]) / size, 0.0, static_cast<double>(most_cells));
+        const double at = std::clamp((p[axis] - origin[axis]) / size, 0.0, static_cast<double>(max_cells));
         cell = cell << 20 | (static_cast<std::uint64_t>(at) + 1);  // + 1: the cell before the first has a number too
     }
     return cell;

@@ -15,7 +15,7 @@ namespace qchopper {
 namespace {
 
 bool is_same_direction(Vec3 a, Vec3 b) {
-    return norm(cross(a, b)) < std::sin(least_turn_deg * std::numbers::pi / 180);
+    return norm(cross(a, b)) < std::sin(min_turn_deg * std::numbers::pi / 180);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::vector<Vec3> candidate_normals(const OrientedBox& box, CandidateNormals nor
 }
 
 double offset_step(const Extent& range, const CandidateOptions& options) {
-    if (options.offset_step_mm) return std::max(*options.offset_step_mm, range.size() / most_steps);
+    if (options.offset_step_mm) return std::max(*options.offset_step_mm, range.size() / max_steps);
     return range.size() / (options.offsets_per_normal + 1);
 }
 
@@ -43,7 +43,7 @@ std::vector<double> candidate_offsets(const Extent& range, const CandidateOption
     std::vector<double> offsets;
     if (options.offset_step_mm) {
         const double step = offset_step(range, options);
-        for (int k = 1; k < most_steps && range.low + k * step < range.high; ++k) {
+        for (int k = 1; k < max_steps && range.low + k * step < range.high; ++k) {
             offsets.push_back(range.low + k * step);
         }
         return offsets;

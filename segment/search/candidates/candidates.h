@@ -50,10 +50,10 @@ struct Candidate {
     int offset_index = 0;
 };
 
-constexpr int most_steps = 200;  // of an extent
+constexpr int max_steps = 200;  // of an extent
 
 // Directions nearer than this to an earlier one, up to sign, are left out.
-constexpr double least_turn_deg = 0.5;
+constexpr double min_turn_deg = 0.5;
 
 // The axes of the box, then the octahedron's normals, all canonical: what Candidate::normal_index counts.
 std::vector<Vec3> candidate_normals(const OrientedBox& box, CandidateNormals normals);
@@ -69,8 +69,8 @@ std::vector<double> offset_shares(double size, const CandidateOptions& options);
 double offset_step(const Extent& range, const CandidateOptions& options);
 
 // Of one normal at most so many offsets.
-inline int most_offsets(const CandidateOptions& options) {
-    return options.offset_step_mm ? most_steps - 1 : options.offsets_per_normal;
+inline int max_offsets(const CandidateOptions& options) {
+    return options.offset_step_mm ? max_steps - 1 : options.offsets_per_normal;
 }
 
 // All offsets of all normals, ordered by normal_index, then offset_index. Planes that miss the piece are left out.

@@ -56,7 +56,7 @@ double place_of_least(double from, double to, const Function& f) {
 
 }  // namespace
 
-Cutter cutter_of(const CarvingTool& tool) {
+Cutter cutter_of(const CuttingTool& tool) {
     Cutter cutter{tool.shape, 0.5 * tool.diameter, tool.corner_radius, 0, 1};
     if (tool.shape == ToolShape::ball) cutter.corner = cutter.radius;
     if (tool.shape == ToolShape::flat) cutter.corner = 0;
@@ -165,7 +165,7 @@ double SweptCutter::distance(Vec3 point) const {
 
 // The distance from the cylinder is the least over the places s of the larger of two convex functions of point and
 // place: `aside` from the axis, `below` the tip. Any mean of their tangents at one place is below both.
-double SweptCutter::least_from_cylinder(const std::array<Vec3, 3>& triangle) const {
+double SweptCutter::min_from_cylinder(const std::array<Vec3, 3>& triangle) const {
     const Vec3 m = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
     const auto aside_at = [&](double s) {
         const double x = m.x - s * move_.x;

@@ -9,7 +9,7 @@
 #include <array>
 
 #include "base/vec3.h"
-#include "cam/cell/carving_tool.h"
+#include "cam/cell/cutting_tool.h"
 
 namespace qchopper {
 
@@ -22,7 +22,7 @@ struct Cutter {
     bool operator==(const Cutter&) const = default;
 };
 
-Cutter cutter_of(const CarvingTool& tool);
+Cutter cutter_of(const CuttingTool& tool);
 
 // The same shape with its whole surface moved inwards by `inset`, below the radius; its tip stays where the surface is.
 // The tip of the result stands `inset` above that of the cutter.
@@ -49,7 +49,7 @@ class SweptCutter {
     double ball_distance(Vec3 point, Vec3& gradient) const;
     // A lower bound of the distance for all points of a triangle, from the cylinder about the tool. It nears the
     // distance with the square of the triangle's size, except at the edge of the cylinder.
-    double least_from_cylinder(const std::array<Vec3, 3>& triangle) const;
+    double min_from_cylinder(const std::array<Vec3, 3>& triangle) const;
     // The x of the points of a row that the tool can reach lie between these two.
     void reach_of_row(double y, double& x_min, double& x_max) const;
     const Cutter& cutter() const { return cutter_; }

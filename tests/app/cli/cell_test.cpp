@@ -50,7 +50,7 @@ struct CellCommands : ::testing::Test {
     static bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 };
 
-TEST_F(CellCommands, AFileIsCarvedOnceUnlessAgainIsPassed) {
+TEST_F(CellCommands, AFileIsMilledOnceUnlessAgainIsPassed) {
     start_cell("100000");
     EXPECT_EQ(dispatch().code, 0);
     const Ended second = dispatch();

@@ -8,7 +8,7 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/terminal.h"
 #include "app/report/cell/cell_control_report.h"
-#include "app/report/cell/hand_over_report.h"
+#include "app/report/cell/dispatch_report.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -68,11 +68,11 @@ TEST(OutsideText, OfANameOfAFileIsEscaped) {
 
 // The job ran, and the cell gets no further command until somebody has looked at it.
 TEST(OutsideText, AJobThatEndedOnACellWithoutItsMemoryIsNotWell) {
-    HandOverReport report;
+    DispatchReport report;
     report.wanted = 1;
     report.handed.push_back({"A", {}, true});
     JobOutcome& outcome = report.handed.back().outcome;
-    outcome.verdict = StartVerdict::started;
+    outcome.start_outcome = StartOutcome::started;
     outcome.job_state = JobState::ended;
     outcome.job_result = JobResult::complete;
     EXPECT_TRUE(report.is_complete());

@@ -5,14 +5,14 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "base/error.h"
 #include "base/files/zip.h"
 #include "base/hex.h"
 #include "base/sha256.h"
 #include "devices/wire/modbus_tcp.h"
 #include "sim/cell/cell_sim.h"
-#include "sim/replay/stock/stock.h"
+#include "sim/replay/stock/stock_record.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -71,7 +71,7 @@ std::map<std::string, double> figures(const json& verdict) {
 void change_stock(const fs::path& job, const fs::path& project) {
     const std::string old = program::bytes_in(job);
     std::map<std::string, Bytes> files = unzip({old.begin(), old.end()}, "job");
-    CarvedStock stock = read_stock(files.at("stock.bin"), "stock.bin");
+    StockRecord stock = read_stock(files.at("stock.bin"), "stock.bin");
     ++stock.tools.back().tool;
     const Bytes changed = to_bytes(stock);
     const Bytes& manifest = files.at("manifest.json");
@@ -151,13 +151,13 @@ class Attended {
         cell_ = std::make_unique<CellSim>(options);
         cell_->start();
     }
-    std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs) const {
+    std::vector<DispatchedJob> dispatch_jobs(const std::vector<PieceJob>& jobs) const {
         Journal journal(folder_ / "journal", {any_cell_id, true, "parts"});
         ModbusTcpBus bus({"127.0.0.1", cell_->port()});
         DispatchOptions options;
         options.drop_folder = folder_ / "drop";
         options.timings.poll_s = 0.01;
-        return qchopper::hand_over(jobs, bus, options, journal, {});
+        return qchopper::dispatch_jobs(jobs, bus, options, journal, {});
     }
     void refuse(const std::string& words) {
         const std::lock_guard lock(asking_);
@@ -188,15 +188,15 @@ TEST_F(Parts, AreHandedOverInTheirOrderEachAfterTheOneBeforeAndToTheSameBlock) {
         EXPECT_EQ(jobs[k - 1U].ticket.about.parts, 3);
     }
     Attended cell(folder.path);
-    EXPECT_THROW(cell.hand_over({jobs[1]}), InputError) << "part 1 has not ended";
+    EXPECT_THROW(cell.dispatch_jobs({jobs[1]}), InputError) << "part 1 has not ended";
     cell.refuse("part 2 of 3");
-    EXPECT_EQ(cell.hand_over(jobs).size(), 2U) << "part 3 is not tried";
+    EXPECT_EQ(cell.dispatch_jobs(jobs).size(), 2U) << "part 3 is not tried";
     EXPECT_EQ(cell.starts_total(), 1U);
-    EXPECT_THROW(cell.hand_over({jobs[2]}), InputError) << "part 2 has not ended";
+    EXPECT_THROW(cell.dispatch_jobs({jobs[2]}), InputError) << "part 2 has not ended";
     cell.refuse("");
-    const std::vector<HandedOver> rest = cell.hand_over(jobs);
+    const std::vector<DispatchedJob> rest = cell.dispatch_jobs(jobs);
     ASSERT_EQ(rest.size(), 3U);
-    EXPECT_TRUE(rest[0].outcome.carved_complete);
+    EXPECT_TRUE(rest[0].outcome.milled_complete);
     EXPECT_TRUE(rest[1].outcome.is_complete() && rest[2].outcome.is_complete()) << rest[2].outcome.why;
     EXPECT_EQ(cell.starts_total(), 3U);
     const std::vector<std::string> questions = cell.questions();

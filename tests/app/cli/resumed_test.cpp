@@ -201,7 +201,7 @@ TEST(Resumed, ACellThatIsKilledBeforeTheStartGetsTheJobWhenItIsBack) {
     });
 }
 
-TEST(Resumed, ACellThatIsKilledAfterTheStartCarvesOnlyAgainOnRequest) {
+TEST(Resumed, ACellThatIsKilledAfterTheStartMillsOnlyAgainOnRequest) {
     at_each(after_start, [](Scene& scene, const std::string& moment) {
         const auto dispatch = scene.begin(moment);
         scene.restart_cell(false);
@@ -296,7 +296,7 @@ TEST(Resumed, ACellThatIsEmptiedBeforeTheStartIsAcceptedAndGetsTheJob) {
     });
 }
 
-TEST(Resumed, ACellThatIsEmptiedAfterTheStartDoesNotCarveThePieceOnceMoreUnasked) {
+TEST(Resumed, ACellThatIsEmptiedAfterTheStartDoesNotMillThePieceOnceMoreUnasked) {
     at_each(after_start, [](Scene& scene, const std::string& moment) {
         const bool is_killed = moment == after_start.back();
         const auto dispatch = scene.begin(moment);
@@ -342,7 +342,7 @@ TEST(Resumed, ACellThatIsEmptiedWhileStartIsUnderWayIsUnknown) {
 
 // A dispatch that was killed before START: with the memory of the cell gone, its journal is the only witness, and it
 // may have lost its last rows.
-TEST(Resumed, AJobThatWasOpenWhenTheCellLostItsMemoryIsCarvedOnlyWithAgain) {
+TEST(Resumed, AJobThatWasOpenWhenTheCellLostItsMemoryIsMilledOnlyWithAgain) {
     at_each({before_start[1]}, [](Scene& scene, const std::string& moment) {
         kill(*scene.begin(moment));
         scene.restart_cell(true);

@@ -62,7 +62,7 @@ TEST_F(WorkEnvelopeCommand, EveryJobCarriesItsEnvelope) {
     EXPECT_EQ(again["jobs"], first["jobs"]) << "the same bytes on one core";
 }
 
-TEST_F(WorkEnvelopeCommand, APieceThatTheMachineCannotCarveGetsNoJob) {
+TEST_F(WorkEnvelopeCommand, APieceThatTheMachineCannotMillGetsNoJob) {
     put_cell("\n[[obstacle]]\nname = \"press\"\nmin = [500.0, -900.0, 320.0]\nmax = [1900.0, 900.0, 900.0]\n");
     const program::Ended made = prepare("cell.toml", "p.qch", false);
     EXPECT_EQ(made.code, 1) << made.err;

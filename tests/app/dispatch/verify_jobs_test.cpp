@@ -74,7 +74,7 @@ TEST(VerifyJobs, AChunkOtherThanTheManifestSaysIsNamed) {
 TEST(VerifyJobs, AChunkThatTheManifestDoesNotDescribeIsNamed) {
     ReadJob job = proven_job(kuka).job;
     JobChunk& chunk = job.program->chunks[1];
-    chunk = {chunk.file, chunk.tool, chunk.direction, 0, 0, {}, {}, {}};
+    chunk = {chunk.file, chunk.tool, chunk.orientation, 0, 0, {}, {}, {}};
     EXPECT_EQ(judged(job, proven_job(kuka).cell).findings.front().kind, "other_chunks");
 }
 

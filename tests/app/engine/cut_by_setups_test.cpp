@@ -127,8 +127,8 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
     const Project kept = load_project(folder);
     EXPECT_EQ(kept.stage, Stage::cutting);
     EXPECT_GT(kept.cuts.size(), 3U) << "what was decided is kept";
-    ASSERT_TRUE(kept.verdict);
-    EXPECT_TRUE(kept.verdict->are_cuts_asked);
+    ASSERT_TRUE(kept.review);
+    EXPECT_TRUE(kept.review->are_cuts_asked);
     {
         const ThreadLimit one(1);
         OpenProject project = open();
@@ -157,7 +157,7 @@ TEST_F(CutBySetups, WhatRunsOutOfTimeGoesOnToTheSameBytes) {
     EXPECT_EQ(load_project(folder).cuts.size(), before);
     int runs = 1;
     for (; runs < 60 && judge_for(std::chrono::milliseconds(200)).is_out_of_time(); ++runs) {
-        EXPECT_FALSE(load_project(folder).verdict->is_done);
+        EXPECT_FALSE(load_project(folder).review->is_done);
     }
     EXPECT_GT(runs, 1);
     EXPECT_LT(runs, 60);
@@ -179,8 +179,8 @@ TEST_F(CutBySetups, ThePlaneThatComesFirstLeavesLeast) {
         double sum = 0;
         for (const Piece& piece : after.pieces) {
             if (made_by(piece) != static_cast<std::int32_t>(after.cuts.size())) continue;
-            const SurfaceReach reach = project.setups()->of(piece).setup().reach;
-            if (reach.unreachable_share() > limit) sum += reach.unreachable_mm2();
+            const SurfaceAccess access = project.setups()->of(piece).setup().access;
+            if (access.unreachable_share() > limit) sum += access.unreachable_mm2();
         }
         return sum;
     };

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/dispatch/hand_over.h"
+#include "app/dispatch/dispatch_jobs.h"
 #include "app/engine/prepare_project.h"
 #include "app/store/project_folder.h"
 #include "base/error.h"

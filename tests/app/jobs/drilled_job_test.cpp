@@ -267,8 +267,8 @@ void fill_in(ReadJob& job, const Cell& cell) {
     const auto read = summarise_chunks(read_krl(files, entry.substr(0, entry.find('.')), {called_programs(cell)}));
     for (std::size_t i = 0; i < read.size(); ++i) {
         JobChunk& chunk = job.program->chunks[i];
-        chunk = {chunk.file,     chunk.tool,  chunk.direction, read[i].moves,
-                 read[i].length, read[i].box, read[i].first,   read[i].last};
+        chunk = {chunk.file,     chunk.tool,  chunk.orientation, read[i].moves,
+                 read[i].length, read[i].box, read[i].first,     read[i].last};
     }
 }
 
@@ -317,8 +317,8 @@ struct Slab {
     PiecePrograms programs() {
         setups = std::make_unique<Setups>(cell);
         setups->compute_held({&piece, 1}, {});
-        const Carving& carving = setups->held(piece);
-        return make_programs(piece, carving, 1, cell, caps_of_slab(carving.setup()), {});
+        const PieceSetup& piece_setup = setups->held(piece);
+        return make_programs(piece, piece_setup, 1, cell, caps_of_slab(piece_setup.setup()), {});
     }
 };
 
@@ -332,7 +332,7 @@ std::vector<JobHole> holes_in(const PiecePrograms& programs) {
 
 TEST(DrilledJobs, AProgramThatCannotBeMadeWithTheHolesIsMadeWithoutThem) {
     Slab slab;
-    for (CarvingTool& tool : slab.cell.machine->tools) {
+    for (CuttingTool& tool : slab.cell.machine->tools) {
         if (is_drill(tool)) tool.mass_kg = 20'000;  // more than a program can say
     }
     const PiecePrograms programs = slab.programs();
@@ -348,7 +348,7 @@ TEST(DrilledJobs, AProgramThatCannotBeMadeWithTheHolesIsMadeWithoutThem) {
 
 TEST(DrilledJobs, OnlyTheHolesThatTheProgramCannotDrillAreForTheHand) {
     Slab slab;
-    for (CarvingTool& tool : slab.cell.machine->tools) {
+    for (CuttingTool& tool : slab.cell.machine->tools) {
         if (is_drill(tool) && tool.diameter == 6) tool.mass_kg = 20'000;
     }
     const PiecePrograms programs = slab.programs();
@@ -364,7 +364,7 @@ TEST(DrilledJobs, OnlyTheHolesThatTheProgramCannotDrillAreForTheHand) {
 
 TEST(DrilledJobs, WithoutDrillsAllHolesAreForTheHand) {
     Slab slab;
-    std::erase_if(slab.cell.machine->tools, [](const CarvingTool& tool) { return is_drill(tool); });
+    std::erase_if(slab.cell.machine->tools, [](const CuttingTool& tool) { return is_drill(tool); });
     const PiecePrograms programs = slab.programs();
     ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
     EXPECT_TRUE(programs.parts[0].proof.is_proven());

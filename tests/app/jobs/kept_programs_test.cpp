@@ -112,10 +112,11 @@ TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
     EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, other_cell, version_}));
     const std::string newer = "0.2.0";
     EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, newer}));
-    // The same setup, held by another branch of the arm: its program is another one.
+    // The same setup, held by another arm configuration: its program is another one.
     JobInput held = placed_job();
     const std::string other_envelope = envelope_document(held);
-    held.work_envelope.regions.front().branch.is_back = !held.work_envelope.regions.front().branch.is_back;
+    held.machine_reachability.regions.front().configuration.is_back =
+        !held.machine_reachability.regions.front().configuration.is_back;
     EXPECT_NE(envelope_document(held), other_envelope);
     EXPECT_FALSE(is_kept({input_.piece, input_.setup, other_envelope, input_.piece_no, caps_, cell_, version_}));
     Piece piece = input_.piece;

@@ -68,7 +68,7 @@ TEST(LeftOut, TheJobAsMadeIsProvenAndSaysWhatItLeavesOut) {
     EXPECT_TRUE(grooved().verdict.is_positive) << kinds_of(grooved().verdict);
     const JobProgram& program = *grooved().job.program;
     EXPECT_TRUE(std::any_of(program.left_out.begin(), program.left_out.end(), [](const ToolLeftOut& left) {
-        return left.tool == 1 && !left.direction && left.because.find("tool 2 roughs") != std::string::npos;
+        return left.tool == 1 && !left.orientation && left.because.find("tool 2 roughs") != std::string::npos;
     })) << "the ball of 20 mm";
     EXPECT_LE(figure(grooved().verdict, "given_up_percent"), 0.5);
     EXPECT_EQ(figure(grooved().verdict, "not_allowed_percent"), -1) << "there was no order";
@@ -101,11 +101,11 @@ TEST(LeftOut, ByOrderOfTheOperatorTheFinestToolMayStayAway) {
 }
 
 TEST(LeftOut, WithoutADirectionTheJobIsRefused) {
-    const std::size_t directions = grooved().job.setup.reach.directions.size();
+    const std::size_t directions = grooved().job.setup.access.orientations.size();
     ASSERT_GE(directions, 2U);
     std::size_t refused = 0;
     for (std::size_t d = 0; d < directions; ++d) {
-        ReadJob job = without([&](const JobChunk& chunk) { return chunk.direction == d; });
+        ReadJob job = without([&](const JobChunk& chunk) { return chunk.orientation == d; });
         job.program->left_out.push_back({std::nullopt, d, "it is not needed"});
         const JobVerdict verdict = judged(job, grooved().cell);
         std::printf("without direction %zu: %s", d + 1, verdict.is_positive ? "verified\n" : kinds_of(verdict).c_str());

@@ -30,7 +30,7 @@ std::vector<JobChunk> called(const JobProgram& program, const ProgramFiles& file
     for (const std::string& name : called_chunks(files, stem_of(program.entry))) {
         for (const JobChunk& chunk : program.chunks) {
             if (stem_of(chunk.file) == name)
-                chunks.push_back({chunk.file, chunk.tool, chunk.direction, 0, 0, {}, {}, {}});
+                chunks.push_back({chunk.file, chunk.tool, chunk.orientation, 0, 0, {}, {}, {}});
         }
     }
     return chunks;
@@ -41,8 +41,8 @@ void fill_in(JobProgram& program, const ProgramFiles& files, const Cell& cell) {
         const auto read = summarise_chunks(read_krl(files, stem_of(program.entry), {called_programs(cell)}));
         for (std::size_t i = 0; i < std::min(read.size(), program.chunks.size()); ++i) {
             JobChunk& chunk = program.chunks[i];
-            chunk = {chunk.file,     chunk.tool,  chunk.direction, read[i].moves,
-                     read[i].length, read[i].box, read[i].first,   read[i].last};
+            chunk = {chunk.file,     chunk.tool,  chunk.orientation, read[i].moves,
+                     read[i].length, read[i].box, read[i].first,     read[i].last};
         }
     } catch (const InputError&) {  // nothing to state of a text that cannot be read
     }
@@ -59,13 +59,13 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     input.cell = made.cell.cell;
     Setups setups(input.cell);
     setups.compute_held({&input.piece, 1}, {});
-    const Carving& carving = setups.held(input.piece);
-    EXPECT_TRUE(carving.fits());
-    input.setup = carving.setup();
-    input.envelope = carving.envelope;
-    input.work_envelope = carving.work_envelope;
+    const PieceSetup& piece_setup = setups.held(input.piece);
+    EXPECT_TRUE(piece_setup.fits());
+    input.setup = piece_setup.setup();
+    input.stock_fit = piece_setup.stock_fit;
+    input.machine_reachability = piece_setup.machine_reachability;
     if (caps) input.caps = caps(input.setup);
-    PiecePrograms programs = make_programs(input.piece, carving, 1, input.cell, input.caps, {});
+    PiecePrograms programs = make_programs(input.piece, piece_setup, 1, input.cell, input.caps, {});
     input.caps = programs.caps;
     if (programs.parts.size() != 1) throw std::runtime_error("no single program: " + programs.none_because);
     input.program = programs.parts.front().input;

@@ -46,22 +46,22 @@ Piece frame(double height) {
     return {"A", std::make_shared<TriangleMesh>(mesh), {{1, {{0, 0, 1}, 0}, true}}};
 }
 
-TEST(Setups, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeCarved) {
+TEST(Setups, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeMilled) {
     Setups setups(cell_named("kr60-ha"));
     const double low = low_piece_height(setups.cell());
     const Piece high = frame(400);
     ASSERT_GT(volume_mm3(*high.mesh), 0);
     EXPECT_TRUE(setups.fits(high)) << "by its block and the poses above it";
-    EXPECT_FALSE(setups.is_carvable(high));
-    EXPECT_FALSE(setups.is_carvable(high)) << "asked again";
-    EXPECT_TRUE(setups.is_carvable(frame(low - 1)));
+    EXPECT_FALSE(setups.is_machinable(high));
+    EXPECT_FALSE(setups.is_machinable(high)) << "asked again";
+    EXPECT_TRUE(setups.is_machinable(frame(low - 1)));
 }
 
-TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeCarved) {
+TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeMilled) {
     Setups setups(cell_named("kr60-ha"));
     const Piece pillar = test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1);
     EXPECT_GT(220, low_piece_height(setups.cell()));
-    EXPECT_TRUE(setups.is_carvable(pillar));
+    EXPECT_TRUE(setups.is_machinable(pillar));
 }
 
 TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
@@ -73,15 +73,15 @@ TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
     EXPECT_LT(low_piece_height(setups.planned()), low_piece_height(setups.cell()) - 40);
     const auto with_finest = setups.of(high).setup();
     EXPECT_EQ(with_finest.tools, std::vector<std::uint16_t>{4});
-    EXPECT_GT(with_finest.reach.holder_mm2, with_all.reach.holder_mm2 + 1000) << "its holder meets the walls";
+    EXPECT_GT(with_finest.access.holder_mm2, with_all.access.holder_mm2 + 1000) << "its holder meets the walls";
     setups.set_orders({{"A", {}, {}, {3, 4}}});
     EXPECT_EQ(setups.held(high).setup().tools, (std::vector<std::uint16_t>{3, 4})) << "of one piece";
     EXPECT_THROW(setups.set_tools({9}), InputError);
 }
 
-TEST(Setups, ACellWithoutAMachineKnowsNoToolAndCarvesWhatFits) {
+TEST(Setups, ACellWithoutAMachineKnowsNoToolAndMillsWhatFits) {
     Setups setups(cell_named("foam-1"));
-    EXPECT_TRUE(setups.is_carvable(frame(400)));
+    EXPECT_TRUE(setups.is_machinable(frame(400)));
 }
 
 }  // namespace

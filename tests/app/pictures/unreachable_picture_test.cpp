@@ -21,7 +21,7 @@ Bytes drawn(SurfaceState state, SurfaceState first) {
     std::vector<SurfaceState> states(pieces[0].mesh->triangles.size(), state);
     states[0] = first;
     const Vec3 shift{};
-    const CarvedPiece carved{states, {}};
+    const MilledPiece carved{states, {}};
     return draw_unreachable(pieces, std::span(&shift, 1), std::span(&carved, 1), false);
 }
 
@@ -44,7 +44,7 @@ TEST(UnreachablePicture, TheLegendNamesWhatOccurs) {
 TEST(UnreachablePicture, APieceOfUnknownStatesIsDrawnAsReached) {
     const std::vector<Piece> pieces = uncut(shapes::box({0, 0, 0}, {40, 40, 40}, 2), 0).pieces;
     const Vec3 shift{};
-    const CarvedPiece carved{};
+    const MilledPiece carved{};
     EXPECT_EQ(draw_unreachable(pieces, std::span(&shift, 1), std::span(&carved, 1), false),
               drawn(SurfaceState::reached, SurfaceState::reached));
 }
@@ -65,7 +65,7 @@ TEST(UnreachablePicture, OfAProjectIsThatOfTheSetupsThatJobsAreMadeOf) {
     write_pictures(folder.path, pieces, setups, {});
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
     const auto drawn_by = [&](const std::vector<SurfaceState>& states) {
-        const CarvedPiece carved{states, 1};
+        const MilledPiece carved{states, 1};
         return draw_unreachable(pieces, shifts, std::span(&carved, 1), false);
     };
     const Bytes picture = read_file(folder.path / "pictures" / "unreachable.png");

@@ -31,7 +31,7 @@ Explanation cut_by_plane(int kind, double total, std::vector<Ranked> among) {
 }
 
 bool says(const Explanation& e, const std::string& words) {
-    return verdict(e).find(words) != std::string::npos;
+    return describe(e).find(words) != std::string::npos;
 }
 
 TEST(Explanation, CallsAPlaneTheOperatorsOwnOnlyIfItIs) {
@@ -40,8 +40,8 @@ TEST(Explanation, CallsAPlaneTheOperatorsOwnOnlyIfItIs) {
     EXPECT_TRUE(says(cut_by_plane(own_index, 2.5, {}), "the operator's own"));
     for (const int kind : {0, refined_index, symmetry_index, given_index, mirror_index}) {
         const Explanation e = cut_by_plane(kind, 2.5, others);
-        EXPECT_FALSE(says(e, "operator")) << verdict(e);
-        EXPECT_FALSE(says(cut_by_plane(kind, 2.5, {}), "operator")) << verdict(e);
+        EXPECT_FALSE(says(e, "operator")) << describe(e);
+        EXPECT_FALSE(says(cut_by_plane(kind, 2.5, {}), "operator")) << describe(e);
         for (const std::string& line : lines(e, Project{}, "plot.svg")) {
             EXPECT_EQ(line.find("own"), std::string::npos) << line;
         }
@@ -51,15 +51,16 @@ TEST(Explanation, CallsAPlaneTheOperatorsOwnOnlyIfItIs) {
 TEST(Explanation, CallsAPlaneTheBestOnlyIfNoOtherCostsLess) {
     const Explanation first =
         cut_by_plane(refined_index, 2.5, {ranked(2.5, refined_index), ranked(2, 0), ranked(3, 1)});
-    EXPECT_EQ(verdict(first).find("The plane is number 2 of 3: the best would cost 0.500 less"), 0U) << verdict(first);
+    EXPECT_EQ(describe(first).find("The plane is number 2 of 3: the best would cost 0.500 less"), 0U)
+        << describe(first);
     const Explanation best = cut_by_plane(0, 2, {ranked(2, 0), ranked(2.5, 1)});
-    EXPECT_EQ(verdict(best).find("The plane is the best of 2; the next would cost 0.500 more"), 0U) << verdict(best);
+    EXPECT_EQ(describe(best).find("The plane is the best of 2; the next would cost 0.500 more"), 0U) << describe(best);
     const Explanation beside = cut_by_plane(refined_index, 1.5, {ranked(2, 0), ranked(3, 1)});
-    EXPECT_TRUE(says(beside, "the best of them would cost 0.500 more")) << verdict(beside);
+    EXPECT_TRUE(says(beside, "the best of them would cost 0.500 more")) << describe(beside);
     const Explanation dear = cut_by_plane(own_index, 5, {ranked(2, 0), ranked(3, 1)});
-    EXPECT_TRUE(says(dear, "the best of them would cost 3.000 less")) << verdict(dear);
+    EXPECT_TRUE(says(dear, "the best of them would cost 3.000 less")) << describe(dear);
     const Explanation only = cut_by_plane(0, 2, {ranked(2, 0)});
-    EXPECT_EQ(verdict(only), "The plane is the only candidate that parts the piece.");
+    EXPECT_EQ(describe(only), "The plane is the only candidate that parts the piece.");
 }
 
 // The row of the chosen plane, from 1; its total puts it there.
@@ -82,17 +83,17 @@ TEST(Explanation, ListsThePlaneWhereItsTotalPutsIt) {
 
 TEST(Explanation, SaysThatSetupsReplacedAPlane) {
     Project project;
-    project.verdict = SetupVerdict{};
-    CutVerdict of_cut;
+    project.review = SetupReview{};
+    CutReview of_cut;
     of_cut.cut = 1;
     of_cut.piece = "A";
-    of_cut.outcome = VerdictOutcome::replaced;
+    of_cut.outcome = ReviewOutcome::replaced;
     of_cut.planes = 3;
     of_cut.before = {30, 100};
     of_cut.best = {10, 100};
-    CutVerdict of_other = of_cut;
+    CutReview of_other = of_cut;
     of_other.cut = 2;
-    project.verdict->cuts = {of_other, of_cut};
+    project.review->cuts = {of_other, of_cut};
     std::size_t found = 0;
     for (const std::string& line : lines(cut_by_plane(0, 2, {ranked(1, 1), ranked(2, 0)}), project, "plot.svg")) {
         if (line.find("by their setups another plane leaves") != std::string::npos) ++found;

@@ -123,14 +123,14 @@ TEST(Arm, EveryAnswerHoldsThePoseAndTheGeneratingJointsAreOneOfThem) {
         std::size_t misnamed = 0;
         for (int i = 0; i < 100'000; ++i) {
             const Joints joints = random_joints(arm, random);
-            const ArmBranch branch = branch_of(arm.geometry, joints);
+            const ArmConfiguration configuration = configuration_of(arm.geometry, joints);
             const Pose flange = forward(arm.geometry, joints);
             const ArmAnswers answers = inverse(arm.geometry, flange);
             const ArmAnswer* generating = nullptr;
             for (const ArmAnswer& answer : answers) {
                 worst.add_pose(flange, forward(arm.geometry, answer.joints));
-                misnamed += branch_of(arm.geometry, answer.joints) == answer.branch ? 0 : 1;
-                if (answer.branch == branch) generating = &answer;
+                misnamed += configuration_of(arm.geometry, answer.joints) == answer.configuration ? 0 : 1;
+                if (answer.configuration == configuration) generating = &answer;
             }
             answered += answers.size();
             missing += generating == nullptr ? 1 : 0;
@@ -147,7 +147,7 @@ TEST(Arm, EveryAnswerHoldsThePoseAndTheGeneratingJointsAreOneOfThem) {
     }
 }
 
-TEST(Arm, BranchesOfAPoseDifferAndJointsAreWithinOneTurn) {
+TEST(Arm, ConfigurationsOfAPoseDifferAndJointsAreWithinOneTurn) {
     std::mt19937 random(8);
     for (const NamedArm& arm : all_arms()) {
         const Pose flange = forward(arm.geometry, radians({10, -70, 100, 30, 60, 20}));
@@ -156,20 +156,20 @@ TEST(Arm, BranchesOfAPoseDifferAndJointsAreWithinOneTurn) {
         for (std::size_t i = 0; i < answers.size(); ++i) {
             for (const double joint : answers[i].joints) EXPECT_LE(std::abs(joint), pi) << arm.name;
             for (std::size_t j = 0; j < i; ++j) {
-                EXPECT_FALSE(answers[i].branch == answers[j].branch) << arm.name;
+                EXPECT_FALSE(answers[i].configuration == answers[j].configuration) << arm.name;
                 EXPECT_GT(distance_modulo_turns(answers[i].joints, answers[j].joints), 1e-3) << arm.name;
             }
         }
     }
 }
 
-TEST(Arm, BranchSaysWhereWristCentreElbowAndWristAre) {
+TEST(Arm, ConfigurationSaysWhereWristCentreElbowAndWristAre) {
     const NamedArm arm = kr_120_r2500_pro();
-    const auto branch = [&](const Joints& degrees) { return branch_of(arm.geometry, radians(degrees)); };
-    EXPECT_EQ(branch({0, -90, 90, 0, 30, 0}), (ArmBranch{false, false, false}));
-    EXPECT_EQ(branch({0, -90, 90, 0, -30, 0}), (ArmBranch{false, false, true}));
-    EXPECT_EQ(branch({0, -30, -60, 0, 30, 0}), (ArmBranch{false, true, false}));
-    EXPECT_EQ(branch({0, -140, -60, 0, 30, 0}), (ArmBranch{true, true, false}));
+    const auto configuration = [&](const Joints& degrees) { return configuration_of(arm.geometry, radians(degrees)); };
+    EXPECT_EQ(configuration({0, -90, 90, 0, 30, 0}), (ArmConfiguration{false, false, false}));
+    EXPECT_EQ(configuration({0, -90, 90, 0, -30, 0}), (ArmConfiguration{false, false, true}));
+    EXPECT_EQ(configuration({0, -30, -60, 0, 30, 0}), (ArmConfiguration{false, true, false}));
+    EXPECT_EQ(configuration({0, -140, -60, 0, 30, 0}), (ArmConfiguration{true, true, false}));
 }
 
 TEST(Arm, UnreachablePosesHaveNoAnswer) {
@@ -181,7 +181,7 @@ TEST(Arm, UnreachablePosesHaveNoAnswer) {
     const ArmGeometry arm = kr_120_r2500_pro().geometry;
     const ArmAnswers behind = inverse(arm, {Pose{}.row, {350 + 100, 0, 675 + 215}});
     EXPECT_EQ(behind.size(), 4U);
-    for (const ArmAnswer& answer : behind) EXPECT_TRUE(answer.branch.is_back);
+    for (const ArmAnswer& answer : behind) EXPECT_TRUE(answer.configuration.is_back);
     // Nearer to axis 1 than the arm is offset.
     const ArmGeometry offset = offset_arm().geometry;
     EXPECT_TRUE(inverse(offset, {Pose{}.row, {119, 0, 2000}}).empty());
@@ -293,7 +293,7 @@ TEST(Arm, ShoulderAtItsSingularityFollowsTheNeighbour) {
     const ArmAnswers answers = inverse(arm, flange, radians({50, 0, 0, 0, 0, 0}));
     ASSERT_FALSE(answers.empty());
     for (const ArmAnswer& answer : answers) {
-        const double expected = answer.branch.is_back ? radians(-130) : radians(50);
+        const double expected = answer.configuration.is_back ? radians(-130) : radians(50);
         EXPECT_NEAR(std::remainder(answer.joints[0] - expected, full_turn), 0, 1e-12);
         EXPECT_LT(norm(forward(arm, answer.joints).shift - flange.shift), 1e-6);
         EXPECT_LT(singularity(arm, answer.joints).shoulder, 1e-6);
@@ -366,7 +366,7 @@ TEST(Arm, TurnNearestToTheNeighbourIsGiven) {
     const auto given = [&](const Joints& neighbour) {
         const ArmAnswers answers = inverse_within(arm.geometry, arm.ranges, 0, flange, neighbour);
         for (const ArmAnswer& answer : answers) {
-            if (answer.branch == branch_of(arm.geometry, joints)) return answer.joints;
+            if (answer.configuration == configuration_of(arm.geometry, joints)) return answer.joints;
         }
         return Joints{};
     };

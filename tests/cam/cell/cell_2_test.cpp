@@ -108,7 +108,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     program.link_feed_mm_per_s = 300;
     EXPECT_EQ(machine.program, program);
     ASSERT_EQ(machine.tools.size(), 7U);
-    CarvingTool tool;
+    CuttingTool tool;
     tool.number = 4;
     tool.name = "ball nose 6 mm";
     tool.diameter = 6;
@@ -449,7 +449,7 @@ TEST(CellVersion2, DamagedTextNeverEscapes) {
             const Cell cell = parse_cell(text, "c.toml");
             ASSERT_TRUE(cell.machine);
             EXPECT_FALSE(cell.machine->tools.empty());
-            for (const CarvingTool& tool : cell.machine->tools) EXPECT_GE(tool.stick_out, tool.flute_length);
+            for (const CuttingTool& tool : cell.machine->tools) EXPECT_GE(tool.stick_out, tool.flute_length);
             check_cell(cell);
         } catch (const InputError& error) {
             ++refusals;

@@ -74,7 +74,7 @@ TEST(Cell, IsReadAsItIsWritten) {
     const Cell cell = parse_cell(good, "shop/cell.toml");
     EXPECT_EQ(cell.name, "test");
     EXPECT_EQ(cell.id, 7);
-    EXPECT_EQ(cell.reach, (Box{{-1200, -1200, 0}, {1200, 1200, 1400}}));
+    EXPECT_EQ(cell.workspace, (Box{{-1200, -1200, 0}, {1200, 1200, 1400}}));
     EXPECT_EQ(cell.table, (Table{0, 50, 2200, 1600, 150}));
     EXPECT_EQ(cell.stock, (std::vector<Stock>{{"small", {300, 200, 100}, Material::eps}}));
     EXPECT_EQ(cell.margins, (Margins{10, 8, 0}));
@@ -119,7 +119,7 @@ TEST(Cell, TheExampleIsACell) {
     EXPECT_EQ(cell.stock.size(), 5U);
     for (const Stock& stock : cell.stock) {
         EXPECT_LE(stock.size.x, cell.table.size_x) << stock.name;
-        EXPECT_LE(cell.table.height + stock.size.z + cell.clearance, cell.reach.max.z) << stock.name;
+        EXPECT_LE(cell.table.height + stock.size.z + cell.clearance, cell.workspace.max.z) << stock.name;
     }
 }
 
@@ -230,7 +230,7 @@ TEST(Cell, DamagedTextNeverEscapes) {
             const Cell cell = parse_cell(text, "c.toml");
             EXPECT_FALSE(cell.stock.empty());
             EXPECT_GT(cell.tool.diameter, 0);
-            EXPECT_LT(cell.reach.min.z, cell.reach.max.z);
+            EXPECT_LT(cell.workspace.min.z, cell.workspace.max.z);
         } catch (const InputError& error) {
             ++refusals;
             EXPECT_EQ(error.fault, InputFault::config);

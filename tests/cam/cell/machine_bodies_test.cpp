@@ -29,7 +29,7 @@ TEST(MachineBodies, MoveAsTheArmDoes) {
     for (const char* const name : {"kr60-ha.toml", "irb6640-185-2.8.toml", "kr120-r2500-pro-rotary.toml"}) {
         const Cell cell = ready_cell(name);
         const Robot& robot = *cell.machine->robot;
-        const CarvingTool& tool = cell.machine->tools.front();
+        const CuttingTool& tool = cell.machine->tools.front();
         const ToolArm arm = tool_arm(robot, cell.machine->spindle, tool);
         for (int i = 0; i < 100; ++i) {
             const Joints joints = random_joints(robot.ranges, random);

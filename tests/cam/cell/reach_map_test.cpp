@@ -132,8 +132,8 @@ TEST(ReachMap, ARobotsMapHoldsItsCellAndIsTheSameOnOneThread) {
         // The cell's reach box was checked with the tool straight down.
         for (std::size_t i = 0; i < map.tilts[0].held.size(); ++i) {
             const Vec3 tip = section.middle(i % section.columns, i / section.columns);
-            const bool is_in_box = tip.x > cell.reach.min.x && tip.x < cell.reach.max.x && tip.z > cell.reach.min.z &&
-                                   tip.z < cell.reach.max.z;
+            const bool is_in_box = tip.x > cell.workspace.min.x && tip.x < cell.workspace.max.x &&
+                                   tip.z > cell.workspace.min.z && tip.z < cell.workspace.max.z;
             if (!is_in_box) continue;
             EXPECT_EQ(map.tilts[0].held[i], 1) << name << " " << tip.x << " " << tip.z;
         }
@@ -158,7 +158,7 @@ TEST(ReachMap, VersionOneHasNoReachAndALargeCellLargeSquares) {
     Cell cell = ready_cell("foam-1.toml");
     EXPECT_TRUE(reach_map(cell, four_tilts).tilts.empty());
     cell = ready_cell("gantry-3axis.toml");
-    cell.reach.max.x = 100'000;
+    cell.workspace.max.x = 100'000;
     const ReachSection section = reach_map(cell, {0}).section;
     EXPECT_EQ(section.step, 200);
     EXPECT_EQ(section.columns, 500U);

@@ -118,33 +118,33 @@ void expect_share(double share) {
     EXPECT_LE(share, 1);
 }
 
-void expect_direction(const SetupDirection& direction, double most_tilt_deg) {
-    EXPECT_NEAR(norm(direction.out), 1, 1e-9);
-    EXPECT_GE(direction.tilt_deg, 0);
-    EXPECT_LE(direction.tilt_deg, most_tilt_deg + rounding_deg);
-    expect_share(direction.gained_share);
-    EXPECT_TRUE(std::isfinite(direction.depth_mm) && direction.depth_mm >= 0) << direction.depth_mm;
+void expect_direction(const ToolOrientation& orientation, double max_tilt_deg) {
+    EXPECT_NEAR(norm(orientation.tool_axis), 1, 1e-9);
+    EXPECT_GE(orientation.tilt_deg, 0);
+    EXPECT_LE(orientation.tilt_deg, max_tilt_deg + rounding_deg);
+    expect_share(orientation.gained_share);
+    EXPECT_TRUE(std::isfinite(orientation.depth_mm) && orientation.depth_mm >= 0) << orientation.depth_mm;
 }
 
-void expect_sound(const qchopper::Setup& setup, const SetupOptions& options, double most_tilt_deg) {
-    const SurfaceReach& reach = setup.reach;
-    expect_share(reach.unreachable_share());
-    expect_share(reach.all_directions_share);
+void expect_sound(const qchopper::Setup& setup, const SetupOptions& options, double max_tilt_deg) {
+    const SurfaceAccess& access = setup.access;
+    expect_share(access.unreachable_share());
+    expect_share(access.all_directions_share);
     expect_share(setup.undercut);
     expect_share(setup.undercut_by_count);
-    for (const double part : {reach.hidden_mm2, reach.steep_mm2, reach.holder_mm2, reach.too_narrow_mm2}) {
+    for (const double part : {access.hidden_mm2, access.steep_mm2, access.holder_mm2, access.too_narrow_mm2}) {
         EXPECT_GE(part, 0);
-        EXPECT_LE(part, reach.area_mm2 * (1 + 1e-6));
+        EXPECT_LE(part, access.area_mm2 * (1 + 1e-6));
     }
-    for (const double value : {reach.area_mm2, reach.foam_mm3, reach.foam_depth_mm, reach.residue_mm3, setup.base_mm2,
-                               setup.projected_area_mm2}) {
+    for (const double value : {access.area_mm2, access.foam_mm3, access.foam_depth_mm, access.rest_material_mm3,
+                               setup.base_mm2, setup.projected_area_mm2}) {
         EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
     }
-    ASSERT_GE(reach.directions.size(), 1U);
-    EXPECT_LE(reach.directions.size(), options.max_directions);
-    EXPECT_NEAR(reach.directions.front().tilt_deg, 0, rounding_deg);
-    for (const SetupDirection& direction : reach.directions) expect_direction(direction, most_tilt_deg);
-    if (reach.further) expect_direction(*reach.further, most_tilt_deg);
+    ASSERT_GE(access.orientations.size(), 1U);
+    EXPECT_LE(access.orientations.size(), options.max_directions);
+    EXPECT_NEAR(access.orientations.front().tilt_deg, 0, rounding_deg);
+    for (const ToolOrientation& orientation : access.orientations) expect_direction(orientation, max_tilt_deg);
+    if (access.further) expect_direction(*access.further, max_tilt_deg);
 }
 
 JobInput job_of(const Piece& piece, const Cell& cell, SetupChoice choice) {
@@ -153,7 +153,7 @@ JobInput job_of(const Piece& piece, const Cell& cell, SetupChoice choice) {
     input.program_version = "0.1.0";
     input.cell = cell;
     input.setup = choice.setups.front();
-    input.envelope = check_envelope(input.setup, cell);
+    input.stock_fit = check_stock_fit(input.setup, cell);
     input.alternatives.assign(choice.setups.begin() + 1, choice.setups.end());
     input.states = std::move(choice.states);
     return input;
@@ -161,16 +161,16 @@ JobInput job_of(const Piece& piece, const Cell& cell, SetupChoice choice) {
 
 // The setups are sound, and so is the job: a figure that is not finite has no form in the manifest and would be
 // refused.
-void expect_sound(const Piece& piece, const Cell& cell, const SetupOptions& options, double most_tilt_deg) {
+void expect_sound(const Piece& piece, const Cell& cell, const SetupOptions& options, double max_tilt_deg) {
     SCOPED_TRACE(piece.name + " in " + cell.name);
     const SetupChoice choice = choose_setup(piece, cell, options);
     ASSERT_FALSE(choice.setups.empty());
-    for (const qchopper::Setup& setup : choice.setups) expect_sound(setup, options, most_tilt_deg);
+    for (const qchopper::Setup& setup : choice.setups) expect_sound(setup, options, max_tilt_deg);
     EXPECT_EQ(choice.states.size(), options.mapped > 0 ? piece.mesh->triangles.size() : 0);
     const JobInput input = job_of(piece, cell, choice);
     const Bytes bytes = job_file(input);
     const ReadJob job = parse_job(bytes, "A.qjob");
-    EXPECT_EQ(job.setup.reach, input.setup.reach);
+    EXPECT_EQ(job.setup.access, input.setup.access);
     if (cell.machine) return;  // what differs in it is not done by several threads
 
     const ThreadLimit one(1);
@@ -212,7 +212,7 @@ TEST(AwkwardPiece, IsJudgedAtBothEndsOfTheTilt) {
     }
 }
 
-TEST(AwkwardPiece, IsCarvedFromAboveAloneWhereOneDirectionIsAllowed) {
+TEST(AwkwardPiece, IsMilledFromAboveAloneWhereOneDirectionIsAllowed) {
     SetupOptions options = few_samples();
     options.max_directions = 1;
     options.mapped = 0;
@@ -237,7 +237,7 @@ Piece shaft() {
 
 Cell with_stick_out(double mm) {
     Cell cell = robot_cell();
-    for (CarvingTool& tool : cell.machine->tools) tool.stick_out = mm;
+    for (CuttingTool& tool : cell.machine->tools) tool.stick_out = mm;
     return cell;
 }
 
@@ -250,10 +250,10 @@ TEST(ShortTool, DoesNotReachIntoACavityAndTheSheetSaysSo) {
     };
     const SetupChoice reaching = chosen(250);
     const SetupChoice choice = chosen(60);
-    const SurfaceReach& reach = choice.setups.front().reach;
-    EXPECT_GE(reach.holder_mm2, 0.9 * 40 * 40) << "the floor of the shaft at least";
-    EXPECT_LT(reaching.setups.front().reach.holder_mm2, 0.1 * reach.holder_mm2);
-    EXPECT_GE(reach.unreachable_mm2(), reach.holder_mm2) << "it counts";
+    const SurfaceAccess& access = choice.setups.front().access;
+    EXPECT_GE(access.holder_mm2, 0.9 * 40 * 40) << "the floor of the shaft at least";
+    EXPECT_LT(reaching.setups.front().access.holder_mm2, 0.1 * access.holder_mm2);
+    EXPECT_GE(access.unreachable_mm2(), access.holder_mm2) << "it counts";
     EXPECT_NE(std::count(choice.states.begin(), choice.states.end(), SurfaceState::holder), 0);
     JobInput input = job_of(piece, with_stick_out(60), choice);
     input.max_unreachable = 0.02;
@@ -266,16 +266,16 @@ TEST(ShortTool, DoesNotReachIntoACavityAndTheSheetSaysSo) {
 // What the holder keeps out of a narrow shaft is not counted a second time as too narrow.
 TEST(ShortTool, AndTooWideIsCountedOnce) {
     Cell in = with_stick_out(1);
-    for (CarvingTool& tool : in.machine->tools) tool.diameter = 38;
-    for (CarvingTool& tool : in.machine->tools) tool.holder = {{200, 300}};
+    for (CuttingTool& tool : in.machine->tools) tool.diameter = 38;
+    for (CuttingTool& tool : in.machine->tools) tool.holder = {{200, 300}};
     SetupOptions options = few_samples();
     options.base = 0;
     options.count_narrow = true;
-    const SurfaceReach reach = choose_setup(shaft(), in, options).setups.front().reach;
-    const double parts = reach.hidden_mm2 + reach.steep_mm2 + reach.holder_mm2 + reach.too_narrow_mm2;
-    EXPECT_GT(reach.holder_mm2, 0);
-    EXPECT_LE(parts, reach.area_mm2 * (1 + 1e-6));
-    expect_share(reach.unreachable_share());
+    const SurfaceAccess access = choose_setup(shaft(), in, options).setups.front().access;
+    const double parts = access.hidden_mm2 + access.steep_mm2 + access.holder_mm2 + access.too_narrow_mm2;
+    EXPECT_GT(access.holder_mm2, 0);
+    EXPECT_LE(parts, access.area_mm2 * (1 + 1e-6));
+    expect_share(access.unreachable_share());
     expect_sound(shaft(), in, options, 60);
 }
 
@@ -291,9 +291,9 @@ TEST(BaseThatNoBlockHolds, IsTakenAfterOneThatFits) {
         const SetupChoice choice = choose_setup(piece, in, few_samples());
         ASSERT_EQ(choice.setups.size(), 2U);
         EXPECT_NEAR(choice.setups[0].box.size().z, height, 1e-9);
-        EXPECT_TRUE(check_envelope(choice.setups[0], in).fits());
+        EXPECT_TRUE(check_stock_fit(choice.setups[0], in).fits());
         EXPECT_TRUE(choice.setups[0].block.holds);
-        EXPECT_FALSE(check_envelope(choice.setups[1], in).fits());
+        EXPECT_FALSE(check_stock_fit(choice.setups[1], in).fits());
         EXPECT_FALSE(choice.setups[1].block.holds);
         EXPECT_TRUE(fits_cell(piece, in));
     }
@@ -306,7 +306,7 @@ TEST(LargePiece, ThatNoBlockHoldsIsStillLaidAndTheSentenceSaysWhatLacks) {
     EXPECT_FALSE(setup.block.holds);
     EXPECT_FALSE(fits_cell(piece, cell()));
     expect_sound(setup, few_samples(), default_tilt_deg);
-    const std::string sentence = describe_envelope("A", check_envelope(setup, cell()));
+    const std::string sentence = describe_stock_fit("A", check_stock_fit(setup, cell()));
     for (const char* word :
          {"piece A does not fit: ", "too long for block", "too wide for block", "too high for block"}) {
         EXPECT_NE(sentence.find(word), std::string::npos) << sentence;
@@ -322,7 +322,7 @@ TEST(SawnBlock, WhoseSawCutIsWiderThanTheRestIsTakenWholeAndTheSheetSaysSo) {
     input.cell.stock = {{"plank", {needed.z + 2, needed.x + 2, needed.y + 2}, Material::eps, true, 4}};
     const SetupChoice choice = choose_setup(input.piece, input.cell, few_samples());
     input = job_of(input.piece, input.cell, choice);
-    const CarvingBlock& block = input.setup.block;
+    const StockBlock& block = input.setup.block;
     EXPECT_TRUE(block.holds);
     EXPECT_TRUE(block.offcuts.empty());
     const std::string sheet = setup_sheet(input, 60);

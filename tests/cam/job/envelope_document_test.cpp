@@ -38,17 +38,17 @@ std::string forged(const std::function<void(ordered_json&)>& change) {
 TEST(EnvelopeDocument, ListsEveryCheckWithItsMarginAndPose) {
     const JobInput input = placed_job();
     const auto json = nlohmann::json::parse(envelope_document(input));
-    ASSERT_EQ(json["checks"].size(), input.work_envelope.margins.size());
+    ASSERT_EQ(json["checks"].size(), input.machine_reachability.margins.size());
     for (std::size_t i = 0; i < json["checks"].size(); ++i) {
         const auto& check = json["checks"][i];
-        const EnvelopeMargin& margin = input.work_envelope.margins[i];
+        const ReachabilityMargin& margin = input.machine_reachability.margins[i];
         EXPECT_EQ(check["check"], rule_of(margin.check).key);
         EXPECT_NEAR(check["margin"].get<double>(), margin.margin, 1e-6);
         EXPECT_NEAR(check["measured"].get<double>() - check["needed"].get<double>(), margin.margin, 2e-6);
         EXPECT_EQ(check["between"], margin.pair);
         EXPECT_EQ(check["pose"].is_null(), margin.check == PoseCheck::block_on_table);
     }
-    EXPECT_EQ(json["tightest"], rule_of(input.work_envelope.tightest().check).key);
+    EXPECT_EQ(json["tightest"], rule_of(input.machine_reachability.tightest().check).key);
     EXPECT_EQ(json["arm_checked"], true);
     EXPECT_EQ(json["holds"], true);
     EXPECT_GT(json["regions"].size(), 0U);

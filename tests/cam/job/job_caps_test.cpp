@@ -51,7 +51,7 @@ const JobsOfPieces& some_jobs() {
             SetupOptions options;
             options.mapped = 0;
             input.setup = choose_setup(pieces[p], input.cell, options).setups.front();
-            input.envelope = check_envelope(input.setup, input.cell);
+            input.stock_fit = check_stock_fit(input.setup, input.cell);
             input.caps = caps_of(pieces, p, made.joints, input.setup, input.cell);
             decide_holes(input.caps, {}, {}, "there is no program");
             made.jobs.push_back(parse_job(job_file(input), pieces[p].name));

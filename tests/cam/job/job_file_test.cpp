@@ -87,7 +87,7 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
     EXPECT_EQ(job.scan_sha256, input.scan_sha256);
     EXPECT_EQ(job.setup, input.setup);
     EXPECT_EQ(job.half_spaces, input.piece.half_spaces);
-    EXPECT_EQ(job.envelope, input.envelope);
+    EXPECT_EQ(job.stock_fit, input.stock_fit);
     EXPECT_EQ(job.block_name, input.cell.stock[input.setup.block.stock].name);
     EXPECT_EQ(job.faces, input.piece.mesh->triangles.size());
     EXPECT_EQ(job.volume_mm3, volume_mm3(*input.piece.mesh));
@@ -108,12 +108,12 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
     JobInput input = tilting_job();
     const ReadJob job = parse_job(job_file(input), "AB.qjob");
     EXPECT_EQ(job.setup, input.setup);
-    EXPECT_TRUE(job.setup.reach.further);
+    EXPECT_TRUE(job.setup.access.further);
     EXPECT_EQ(job.max_unreachable, 0.02);
     EXPECT_TRUE(is_unreachable(job.setup, job.max_unreachable));
     const std::vector<Alternative> others{
-        {1, "without a cap, lying on its side", ReachMethod::mapped, 0.225, 12345, 890, {58, 56, 44}, 2},
-        {3, "without a cap, lying on its side", ReachMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
+        {1, "without a cap, lying on its side", AccessMethod::mapped, 0.225, 12345, 890, {58, 56, 44}, 2},
+        {3, "without a cap, lying on its side", AccessMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
     EXPECT_EQ(job.alternatives, others);
     const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
     EXPECT_EQ(manifest["schema"], 7);
@@ -124,19 +124,19 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
 
 TEST(Job, AShareAtTheLimitIsReady) {
     JobInput input = tilting_job(3);
-    input.max_unreachable = input.setup.reach.unreachable_share();
+    input.max_unreachable = input.setup.access.unreachable_share();
     const ReadJob job = parse_job(job_file(input), "AB.qjob");
     EXPECT_EQ(nlohmann::json::parse(text_of(job.files.at("manifest.json")))["state"], "ready");
     EXPECT_FALSE(is_unreachable(job.setup, job.max_unreachable));
 }
 
 TEST(Job, WhatDoesNotCountDoesNotMakeItUnreachable) {
-    SurfaceReach reach = some_reach(some_job(3));
-    EXPECT_EQ(reach.unreachable_mm2(), 100);
-    reach.steep_counts = false;
-    EXPECT_EQ(reach.unreachable_mm2(), 80);
-    reach.narrow_counts = true;
-    EXPECT_EQ(reach.unreachable_mm2(), 124);
+    SurfaceAccess access = some_access(some_job(3));
+    EXPECT_EQ(access.unreachable_mm2(), 100);
+    access.steep_counts = false;
+    EXPECT_EQ(access.unreachable_mm2(), 80);
+    access.narrow_counts = true;
+    EXPECT_EQ(access.unreachable_mm2(), 124);
 }
 
 TEST(Job, ThePieceLiesInTheFileAsInTheSetup) {

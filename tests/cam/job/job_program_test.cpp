@@ -136,7 +136,7 @@ TEST(JobProgram, WhatItDrillsIsWhatTheCapsSay) {
               std::string::npos);
     EXPECT_NE(refused([](JobInput& i) { i.program->program.holes = {1, 2, 3}; }).find("hole 2"), std::string::npos);
     EXPECT_NE(refused([](JobInput& i) { i.program->program.holes = {3, 1}; }).find("not in order"), std::string::npos);
-    EXPECT_NE(refused([](JobInput& i) { i.program->program.drilling[0].out.x = 0.7; }).find("length 1"),
+    EXPECT_NE(refused([](JobInput& i) { i.program->program.drilling[0].tool_axis.x = 0.7; }).find("length 1"),
               std::string::npos);
     EXPECT_NE(refused([](JobInput& i) { i.program.reset(); }).find("drilled by no program"), std::string::npos);
 }

@@ -26,29 +26,29 @@ inline JobInput some_job(int rings = 8) {
     for (std::size_t i = 0; i < 32; ++i) input.scan_sha256.bytes[i] = static_cast<std::uint8_t>(255 - i);
     input.cell = cell();
     input.setup = choose_setup(input.piece, input.cell).setups.front();
-    input.envelope = check_envelope(input.setup, input.cell);
+    input.stock_fit = check_stock_fit(input.setup, input.cell);
     input.warnings = {"scaled by 0.5 on request"};
     return input;
 }
 
-inline SurfaceReach some_reach(const JobInput& input) {
-    SurfaceReach reach;
-    reach.method = ReachMethod::mapped;
+inline SurfaceAccess some_access(const JobInput& input) {
+    SurfaceAccess access;
+    access.method = AccessMethod::mapped;
     const double s = std::sqrt(0.5);
-    reach.directions = {{input.setup.up, 0, 0.75, 21.5},
-                        {rotate_inverse(input.setup.piece_in_setup, {0, s, s}), 45, 0.125, 30.25}};
-    reach.further = SetupDirection{rotate_inverse(input.setup.piece_in_setup, {-1, 0, 0}), 90, 0.01, 12};
-    reach.area_mm2 = 2000;
-    reach.hidden_mm2 = 50;
-    reach.steep_mm2 = 20;
-    reach.holder_mm2 = 30;
-    reach.too_narrow_mm2 = 44;
-    reach.all_directions_share = 0.0125;
-    reach.foam_mm3 = 12345;
-    reach.foam_depth_mm = 6.7;
-    reach.residue_mm3 = 890;
-    reach.ignored_mm2 = 123;
-    return reach;
+    access.orientations = {{input.setup.up, 0, 0.75, 21.5},
+                           {rotate_inverse(input.setup.piece_in_setup, {0, s, s}), 45, 0.125, 30.25}};
+    access.further = ToolOrientation{rotate_inverse(input.setup.piece_in_setup, {-1, 0, 0}), 90, 0.01, 12};
+    access.area_mm2 = 2000;
+    access.hidden_mm2 = 50;
+    access.steep_mm2 = 20;
+    access.holder_mm2 = 30;
+    access.too_narrow_mm2 = 44;
+    access.all_directions_share = 0.0125;
+    access.foam_mm3 = 12345;
+    access.foam_depth_mm = 6.7;
+    access.rest_material_mm3 = 890;
+    access.ignored_mm2 = 123;
+    return access;
 }
 
 // In a cell with a machine, from a block that is sawn, with a spoil layer: 5 % of the surface are out of reach, and the
@@ -57,7 +57,7 @@ inline JobInput tilting_job(int rings = 8) {
     JobInput input = some_job(rings);
     input.max_unreachable = 0.02;
     CellMachine machine;
-    CarvingTool long_ball;
+    CuttingTool long_ball;
     long_ball.number = 1;
     long_ball.name = "long ball";
     long_ball.diameter = 20;
@@ -66,7 +66,7 @@ inline JobInput tilting_job(int rings = 8) {
     long_ball.is_length_measured = true;
     long_ball.rpm_max = 18000;
     long_ball.feed_max_mm_per_s = 150;
-    CarvingTool fine = long_ball;
+    CuttingTool fine = long_ball;
     fine.number = 7;
     fine.name = "fine <cone>";
     fine.shape = ToolShape::cone;
@@ -82,7 +82,7 @@ inline JobInput tilting_job(int rings = 8) {
     setup.spoil = 12;
     setup.undercut_by_count = 0.0625;
     setup.block = {1, false, true, {58, 56, 44}, true, {{339, 300, 60}, {58, 241, 60}, {58, 56, 13}}};
-    setup.reach = some_reach(input);
+    setup.access = some_access(input);
     setup.workholding = Workholding{{20, 0.1, 4}, 0.6, 32, 2500, 50, 45.5, 160.25, 2.5, 2400, std::nullopt};
     input.states.resize(input.piece.mesh->triangles.size());
     for (std::size_t t = 0; t < input.states.size(); ++t) {
@@ -92,15 +92,15 @@ inline JobInput tilting_job(int rings = 8) {
     Setup other = setup;
     other.base_number = 1;
     other.base_description = "without a cap, lying on its side";
-    other.reach.hidden_mm2 = 400;
+    other.access.hidden_mm2 = 400;
     input.alternatives = {other};
     other.base_number = 3;
-    other.reach.method = ReachMethod::sampled;
+    other.access.method = AccessMethod::sampled;
     input.alternatives.push_back(other);
     return input;
 }
 
-// In a ready cell with an arm: its block is placed, and every pose of its carving is held.
+// In a ready cell with an arm: its block is placed, and every pose of its milling is held.
 inline const JobInput& placed_job() {
     static const JobInput job = [] {
         JobInput input = some_job();
@@ -108,9 +108,9 @@ inline const JobInput& placed_job() {
         SetupOptions options;
         options.max_directions = 2;
         input.setup = choose_setup(input.piece, input.cell, options).setups.front();
-        input.envelope = check_envelope(input.setup, input.cell);
-        input.work_envelope = place_block(input.setup, *input.piece.mesh, input.cell);
-        input.setup.placement = input.work_envelope.placement;
+        input.stock_fit = check_stock_fit(input.setup, input.cell);
+        input.machine_reachability = place_block(input.setup, *input.piece.mesh, input.cell);
+        input.setup.placement = input.machine_reachability.placement;
         return input;
     }();
     return job;

@@ -23,22 +23,22 @@ class RandomProgram {
  public:
     explicit RandomProgram(unsigned seed) : random_(seed) {}
 
-    Program make(const Cell& cell, std::size_t sections, std::size_t most_runs, std::size_t most_moves) {
+    Program make(const Cell& cell, std::size_t sections, std::size_t max_runs, std::size_t max_moves) {
         Program program;
-        for (const CarvingTool& tool : cell.machine->tools) {
+        for (const CuttingTool& tool : cell.machine->tools) {
             program.tools.push_back({{}, load_data(cell.machine->spindle, tool)});
         }
         for (std::size_t i = 0; i < sections; ++i) {
-            ProgramSection section;
-            section.tool = whole(0, 3);
-            section.direction = whole(0, 2);
-            section.rpm = 15'000;
-            section.link_feed = 300;
-            section.rounding = 2;
-            section.entry = {0, 300, {Joints{}}};
-            section.exit = {0, 300, {Joints{}}};
-            for (std::size_t r = whole(1, most_runs); r > 0; --r) section.runs.push_back(run(whole(1, most_moves)));
-            program.sections.push_back(std::move(section));
+            ProgramOperation operation;
+            operation.tool = whole(0, 3);
+            operation.orientation = whole(0, 2);
+            operation.rpm = 15'000;
+            operation.link_feed = 300;
+            operation.rounding = 2;
+            operation.entry = {0, 300, {Joints{}}};
+            operation.exit = {0, 300, {Joints{}}};
+            for (std::size_t r = whole(1, max_runs); r > 0; --r) operation.runs.push_back(run(whole(1, max_moves)));
+            program.operations.push_back(std::move(operation));
         }
         return program;
     }
@@ -79,9 +79,9 @@ TEST(KrlChunks, HoldEveryRunOnceAndAreSmallEnough) {
         const Program program = random.make(cell, random.whole(1, 6), 12, 60);
         const std::vector<ProgramPart> parts = post_krl(program, cell, {3});
         std::size_t order = 0;
-        std::vector<std::size_t> runs(program.sections.size(), 0);
+        std::vector<std::size_t> runs(program.operations.size(), 0);
         std::set<std::string> names;
-        std::size_t at_section = 0;
+        std::size_t at_operation = 0;
         for (const ProgramPart& part : parts) {
             std::size_t bytes = 0;
             for (const ProgramText& file : part.files) {
@@ -95,17 +95,17 @@ TEST(KrlChunks, HoldEveryRunOnceAndAreSmallEnough) {
             EXPECT_LE(bytes, cell.machine->program.memory_bytes);
             for (const PostedChunk& chunk : part.chunks) {
                 EXPECT_EQ(chunk.order, order++);
-                EXPECT_GE(chunk.section, at_section);
-                at_section = chunk.section;
-                EXPECT_EQ(chunk.first_run, runs[chunk.section]);
-                runs[chunk.section] += chunk.runs;
-                EXPECT_EQ(chunk.tool, program.sections[chunk.section].tool);
-                EXPECT_EQ(chunk.direction, program.sections[chunk.section].direction);
+                EXPECT_GE(chunk.operation, at_operation);
+                at_operation = chunk.operation;
+                EXPECT_EQ(chunk.first_run, runs[chunk.operation]);
+                runs[chunk.operation] += chunk.runs;
+                EXPECT_EQ(chunk.tool, program.operations[chunk.operation].tool);
+                EXPECT_EQ(chunk.orientation, program.operations[chunk.operation].orientation);
                 EXPECT_FALSE(test_krl::text_of(part, chunk.name).empty());
             }
             EXPECT_EQ(part.files.size(), part.chunks.size() + 2);
         }
-        for (std::size_t s = 0; s < runs.size(); ++s) EXPECT_EQ(runs[s], program.sections[s].runs.size());
+        for (std::size_t s = 0; s < runs.size(); ++s) EXPECT_EQ(runs[s], program.operations[s].runs.size());
     }
 }
 
@@ -159,7 +159,7 @@ TEST(KrlChunks, PartsAreProgramsOfTheirOwn) {
     }
 }
 
-// Sections that a toolpath makes are small enough for parts of whole sections.
+// Operations that a toolpath makes are small enough for parts of whole operations.
 TEST(KrlChunks, PartsBeginAndEndAtHome) {
     test_programs::Job job = test_programs::job_in(kr60(), {250, 200, 150}, 35, 200, 2);
     job.cell.machine->program.memory_bytes = 90'000;
@@ -173,7 +173,7 @@ TEST(KrlChunks, PartsBeginAndEndAtHome) {
         EXPECT_TRUE(bytes > 40'000 || part.entry == parts.back().entry) << bytes;
         EXPECT_EQ(part.chunks.front().first_run, 0U);
         const PostedChunk& last = part.chunks.back();
-        EXPECT_EQ(last.first_run + last.runs, program.sections[last.section].runs.size());
+        EXPECT_EQ(last.first_run + last.runs, program.operations[last.operation].runs.size());
     }
 }
 
@@ -183,8 +183,8 @@ TEST(KrlChunks, RefusesAChunkThatDoesNotFit) {
     cell.machine->program.memory_bytes = 10'000;
     Program program = random.make(cell, 1, 1, 1);
     EXPECT_EQ(post_krl(program, cell, {3}).size(), 1U);
-    program.sections[0].runs[0].moves.assign(400, {{1, 2, 3}, MoveKind::cut, false, 100});
-    for (std::size_t i = 0; i < 400; ++i) program.sections[0].runs[0].moves[i].tip.x = static_cast<double>(i);
+    program.operations[0].runs[0].moves.assign(400, {{1, 2, 3}, MoveKind::cut, false, 100});
+    for (std::size_t i = 0; i < 400; ++i) program.operations[0].runs[0].moves[i].tip.x = static_cast<double>(i);
     EXPECT_THROW(post_krl(program, cell, {3}), InputError);
 }
 

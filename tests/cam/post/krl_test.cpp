@@ -82,17 +82,17 @@ std::vector<ScannedLine> chunk_lines(const ProgramPart& part, const PostedChunk&
 
 // The tips that a section's runs go to, as a chunk states them: starts, moves, and the start of the next run behind.
 std::vector<Vec3> expected_tips(const Program& program, const PostedChunk& chunk) {
-    const ProgramSection& section = program.sections[chunk.section];
+    const ProgramOperation& operation = program.operations[chunk.operation];
     std::vector<Vec3> tips;
     for (std::size_t r = chunk.first_run; r < chunk.first_run + chunk.runs; ++r) {
-        tips.push_back(section.runs[r].start);
-        for (const ProgramMove& move : section.runs[r].moves) tips.push_back(move.tip);
+        tips.push_back(operation.runs[r].start);
+        for (const ProgramMove& move : operation.runs[r].moves) tips.push_back(move.tip);
     }
     const std::size_t end = chunk.first_run + chunk.runs;
-    if (end < section.runs.size()) {
-        tips.push_back(section.runs[end].start);
-    } else if (section.exit.raise > 0) {
-        tips.push_back(section.runs.back().moves.back().tip + section.exit.raise * section.out);
+    if (end < operation.runs.size()) {
+        tips.push_back(operation.runs[end].start);
+    } else if (operation.exit.retract > 0) {
+        tips.push_back(operation.runs.back().moves.back().tip + operation.exit.retract * operation.tool_axis);
     }
     return tips;
 }
@@ -120,11 +120,12 @@ TEST(PostKrl, HasTheJointsOfTheProgram) {
         const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
         for (const ProgramPart& part : parts) {
             for (const PostedChunk& chunk : part.chunks) {
-                const ProgramSection& section = program.sections[chunk.section];
-                std::vector<Joints> expected = section.entry.targets;
-                if (chunk.first_run > 0) expected = {section.runs[chunk.first_run].start_joints};
-                const bool is_last = chunk.first_run + chunk.runs == section.runs.size();
-                if (is_last) expected.insert(expected.end(), section.exit.targets.begin(), section.exit.targets.end());
+                const ProgramOperation& operation = program.operations[chunk.operation];
+                std::vector<Joints> expected = operation.entry.targets;
+                if (chunk.first_run > 0) expected = {operation.runs[chunk.first_run].start_joints};
+                const bool is_last = chunk.first_run + chunk.runs == operation.runs.size();
+                if (is_last)
+                    expected.insert(expected.end(), operation.exit.targets.begin(), operation.exit.targets.end());
                 std::size_t at = 0;
                 for (const ScannedLine& line : chunk_lines(part, chunk)) {
                     if (line.word != "PTP") continue;
@@ -134,7 +135,7 @@ TEST(PostKrl, HasTheJointsOfTheProgram) {
                         EXPECT_NEAR(joints[i], expected[at][i], 0.00051 * degree);
                     }
                     if (program.external_axis) {
-                        EXPECT_NEAR(line.values.at("E1"), section.table_angle / degree, 0.00051);
+                        EXPECT_NEAR(line.values.at("E1"), operation.table_angle / degree, 0.00051);
                     }
                     ++at;
                 }
@@ -166,7 +167,7 @@ FirstPose first_pose(const std::vector<ScannedLine>& lines) {
 }
 
 // How far the flange of the joints is from that of the full pose, in mm and in mm at 1 m of lever: all from text.
-double mismatch(const Job& job, const FirstPose& first, double raise) {
+double mismatch(const Job& job, const FirstPose& first, double retract) {
     const CellMachine& machine = *job.cell.machine;
     Pose base = frame_of(first.base);
     if (machine.rotary_table) {
@@ -175,7 +176,7 @@ double mismatch(const Job& job, const FirstPose& first, double raise) {
     }
     Pose tip = frame_of(first.pose);
     const Vec3 axis = machine.spindle.tool_axis == ToolAxis::x ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
-    tip.shift = tip.shift - raise * rotate(tip, axis);
+    tip.shift = tip.shift - retract * rotate(tip, axis);
     const Pose wanted = base * tip * inverse(frame_of(first.tool));
     const Pose held = forward(machine.robot->geometry, joints_of(first.joints));
     double largest = norm(wanted.shift - held.shift);
@@ -188,9 +189,9 @@ TEST(PostKrl, StatesPosesThatTheJointsBeforeThemHold) {
         const Program program = program_of(job);
         for (const ProgramPart& part : post_krl(program, job.cell, {7})) {
             for (const PostedChunk& chunk : part.chunks) {
-                const ProgramSection& section = program.sections[chunk.section];
-                const double raise = chunk.first_run == 0 ? section.entry.raise : 0;
-                EXPECT_LT(mismatch(job, first_pose(chunk_lines(part, chunk)), raise), 0.2);
+                const ProgramOperation& operation = program.operations[chunk.operation];
+                const double retract = chunk.first_run == 0 ? operation.entry.retract : 0;
+                EXPECT_LT(mismatch(job, first_pose(chunk_lines(part, chunk)), retract), 0.2);
             }
         }
     }
@@ -202,7 +203,7 @@ TEST(PostKrl, FramesOfTheTestsAreSkew) {
         const Program program = program_of(job);
         const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
         const FirstPose right = first_pose(chunk_lines(parts[0], parts[0].chunks.back()));
-        const double raise = program.sections[parts[0].chunks.back().section].entry.raise;
+        const double retract = program.operations[parts[0].chunks.back().operation].entry.retract;
         const std::array<ScannedLine FirstPose::*, 3> frames{&FirstPose::tool, &FirstPose::base, &FirstPose::pose};
         for (ScannedLine FirstPose::*frame : frames) {
             for (const char* name : {"X", "Y", "Z", "A", "B", "C"}) {
@@ -210,12 +211,12 @@ TEST(PostKrl, FramesOfTheTestsAreSkew) {
                 double& value = (wrong.*frame).values[name];
                 if (std::abs(value) < 0.3 || std::abs(std::abs(value) - 180) < 0.3) continue;
                 value = -value;
-                EXPECT_GT(mismatch(job, wrong, raise), 0.5) << (right.*frame).text << " " << name;
+                EXPECT_GT(mismatch(job, wrong, retract), 0.5) << (right.*frame).text << " " << name;
             }
             if ((right.*frame).values.at("A") == (right.*frame).values.at("C")) continue;
             FirstPose swapped = right;
             std::swap((swapped.*frame).values["A"], (swapped.*frame).values["C"]);
-            EXPECT_GT(mismatch(job, swapped, raise), 0.5) << (right.*frame).text;
+            EXPECT_GT(mismatch(job, swapped, retract), 0.5) << (right.*frame).text;
         }
     }
 }
@@ -238,7 +239,7 @@ TEST(PostKrl, PointsOnTheTableTurnWithIt) {
     for (const PostedChunk& chunk : parts[0].chunks) {
         const FirstPose first = first_pose(chunk_lines(parts[0], chunk));
         const Pose from_text = table_in_cell(job.cell, first.pose.values.at("E1") * degree) * frame_of(first.base);
-        const Pose expected = setup_in_cell(job.cell, job.setup.spoil, job.setup.placement, chunk.direction);
+        const Pose expected = setup_in_cell(job.cell, job.setup.spoil, job.setup.placement, chunk.orientation);
         const Vec3 point = tip_of(first.pose);
         EXPECT_LT(norm(apply(from_text, point) - apply(expected, point)), 0.01);
     }
@@ -329,15 +330,15 @@ TEST(PostKrl, CallsWhatTheCellFileNames) {
 TEST(PostKrl, SpeedsAreThoseOfTheMoves) {
     Job job = jobs()[0];
     for (JointRange& range : job.cell.machine->robot->ranges) range.speed *= 0.05;
-    job.envelope = {};
+    job.reachability = {};
     const Program program = program_of(job);
     for (const ProgramPart& part : post_krl(program, job.cell, {7})) {
         for (const PostedChunk& chunk : part.chunks) {
-            const ProgramSection& section = program.sections[chunk.section];
+            const ProgramOperation& operation = program.operations[chunk.operation];
             std::vector<double> speeds;
             for (std::size_t r = chunk.first_run; r < chunk.first_run + chunk.runs; ++r) {
-                speeds.push_back(section.runs[r].link_speed);
-                for (const ProgramMove& move : section.runs[r].moves) speeds.push_back(move.speed);
+                speeds.push_back(operation.runs[r].link_speed);
+                for (const ProgramMove& move : operation.runs[r].moves) speeds.push_back(move.speed);
             }
             double stated = 0;
             std::size_t at = 0;
@@ -364,9 +365,9 @@ TEST(PostKrl, GivesTheSameBytesForAnyNumberOfThreadsAndAnyLocale) {
 // A stop is not lost where a place is stated twice, and no corner is rounded where a run ends.
 TEST(PostKrl, RoundsNoCornerThatIsAStop) {
     Program program = program_of(jobs()[0]);
-    program.sections.resize(1);
-    program.sections[0].runs.resize(1);
-    std::vector<ProgramMove>& moves = program.sections[0].runs[0].moves;
+    program.operations.resize(1);
+    program.operations[0].runs.resize(1);
+    std::vector<ProgramMove>& moves = program.operations[0].runs[0].moves;
     moves = {{{1, 2, 3}, MoveKind::approach, false, 60},
              {{10, 2, 3}, MoveKind::cut, true, 100},
              {{10.001, 2, 3}, MoveKind::cut, false, 100},
@@ -382,7 +383,7 @@ TEST(PostKrl, RoundsNoCornerThatIsAStop) {
     };
     EXPECT_EQ(lines(), (std::vector<std::string>{"{X 1.00,Y 2.00,Z 3.00}", "{X 10.00,Y 2.00,Z 3.00}",
                                                  "{X 20.00,Y 2.00,Z 3.00} C_DIS", "{X 30.00,Y 2.00,Z 3.00}"}));
-    program.sections[0].rounding = 0;
+    program.operations[0].rounding = 0;
     EXPECT_EQ(lines()[2], "{X 20.00,Y 2.00,Z 3.00}");
 }
 
@@ -412,13 +413,13 @@ TEST(PostKrl, RefusesValuesThatNoProgramMayHave) {
     const Job& job = jobs()[0];
     const Program good = program_of(job);
     Program bad = good;
-    bad.sections[1].runs[0].moves[2].tip.z = std::nan("");
+    bad.operations[1].runs[0].moves[2].tip.z = std::nan("");
     EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
     bad = good;
-    bad.sections[1].runs[0].moves[2].speed = 0.01;
+    bad.operations[1].runs[0].moves[2].speed = 0.01;
     EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
     bad = good;
-    bad.sections[0].runs[0].start.x = 5000;
+    bad.operations[0].runs[0].start.x = 5000;
     EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
 }
 

@@ -19,7 +19,7 @@ inline Cell ready_cell(const std::string& name) {
 struct Job {
     Cell cell;
     Setup setup;
-    WorkEnvelope envelope;
+    MachineReachability reachability;
     Toolpath toolpath;
 };
 
@@ -29,24 +29,24 @@ struct Across {
     Vec3 v;
 };
 
-inline Across across(Vec3 out) {
-    const Vec3 u = normalized(std::abs(out.y) < 0.9 ? cross({0, 1, 0}, out) : Vec3{1, 0, 0});
-    return {u, cross(out, u)};
+inline Across across(Vec3 tool_axis) {
+    const Vec3 u = normalized(std::abs(tool_axis.y) < 0.9 ? cross({0, 1, 0}, tool_axis) : Vec3{1, 0, 0});
+    return {u, cross(tool_axis, u)};
 }
 
-inline double highest(const Setup& setup, Vec3 out, double clearance) {
+inline double highest(const Setup& setup, Vec3 tool_axis, double clearance) {
     const Vec3 size = setup.block.size;
-    return 0.5 * (std::abs(out.x) * size.x + std::abs(out.y) * size.y) +
-           std::max(out.z * (size.z - setup.spoil), -out.z * setup.spoil) + clearance;
+    return 0.5 * (std::abs(tool_axis.x) * size.x + std::abs(tool_axis.y) * size.y) +
+           std::max(tool_axis.z * (size.z - setup.spoil), -tool_axis.z * setup.spoil) + clearance;
 }
 
 // A zig-zag about the middle of the block's upper part, at a depth below its highest corner along the direction.
-inline PathRun raster(const Setup& setup, Vec3 out, double retract, double height, double half, double step) {
-    const Across axes = across(out);
+inline PathRun raster(const Setup& setup, Vec3 tool_axis, double retract, double height, double half, double step) {
+    const Across axes = across(tool_axis);
     const Vec3 middle{0, 0, 0.5 * (setup.block.size.z - setup.spoil)};
     const auto at = [&](double along, double side, double up) {
         const Vec3 flat = middle + along * axes.u + side * axes.v;
-        return flat + (up - dot(out, flat)) * out;
+        return flat + (up - dot(tool_axis, flat)) * tool_axis;
     };
     PathRun run{at(-half, -half, retract), {{at(-half, -half, height), MoveKind::approach, false}}};
     bool is_forward = true;
@@ -60,45 +60,46 @@ inline PathRun raster(const Setup& setup, Vec3 out, double retract, double heigh
     }
     run.moves.back().is_rounded = false;
     const Vec3 last = run.moves.back().tip;
-    run.moves.push_back({last + (retract - dot(out, last)) * out, MoveKind::retract, false});
+    run.moves.push_back({last + (retract - dot(tool_axis, last)) * tool_axis, MoveKind::retract, false});
     return run;
 }
 
-inline Operation operation(const Job& job, std::size_t direction, std::size_t tool, double step) {
-    const Vec3 out = normalized(rotate(job.setup.piece_in_setup, job.setup.reach.directions[direction].out));
+inline Operation operation(const Job& job, std::size_t orientation, std::size_t tool, double step) {
+    const Vec3 tool_axis =
+        normalized(rotate(job.setup.piece_in_setup, job.setup.access.orientations[orientation].tool_axis));
     Operation made;
     made.kind = tool == 0 ? OperationKind::roughing : OperationKind::finishing;
     made.tool = tool;
-    made.direction = direction;
-    const CarvingTool& own = job.cell.machine->tools[tool];
+    made.orientation = orientation;
+    const CuttingTool& own = job.cell.machine->tools[tool];
     made.feed = 0.8 * own.feed_max_mm_per_s;
     made.approach_feed = 0.4 * own.feed_max_mm_per_s;
     made.link_feed = job.cell.machine->program.link_feed_mm_per_s;
     made.rpm = own.rpm_max;
     made.rounding = 2;
-    made.retract = highest(job.setup, out, job.cell.clearance);
+    made.retract = highest(job.setup, tool_axis, job.cell.clearance);
     const double top = made.retract - job.cell.clearance;
     for (const double depth : {10.0, 25.0, 40.0}) {
-        made.runs.push_back(raster(job.setup, out, made.retract, top - depth, 60, step));
+        made.runs.push_back(raster(job.setup, tool_axis, made.retract, top - depth, 60, step));
     }
     return made;
 }
 
-// A block of a size, carved straight from above by two tools and from a tilted direction by one.
+// A block of a size, milled straight from above by two tools and from a tilted direction by one.
 inline Job job_in(const Cell& cell, Vec3 size, double tilt_deg, double azimuth_deg, double step = 15) {
     Job job;
     job.cell = cell;
-    const std::vector<Vec3> directions{{0, 0, 1}, test_setups::out(tilt_deg, azimuth_deg)};
+    const std::vector<Vec3> directions{{0, 0, 1}, test_setups::tool_axis(tilt_deg, azimuth_deg)};
     test_setups::BoxSetup made = test_setups::box_setup(cell, size, directions);
     job.setup = made.setup;
-    job.envelope = place_block(job.setup, made.mesh, cell);
-    job.setup.placement = job.envelope.placement;
+    job.reachability = place_block(job.setup, made.mesh, cell);
+    job.setup.placement = job.reachability.placement;
     job.toolpath.operations = {operation(job, 0, 0, step), operation(job, 0, 3, step), operation(job, 1, 0, step)};
     return job;
 }
 
 inline Program program_of(const Job& job) {
-    return make_program(job.toolpath, job.setup, job.envelope, job.cell);
+    return make_program(job.toolpath, job.setup, job.reachability, job.cell);
 }
 
 }  // namespace qchopper::test_programs

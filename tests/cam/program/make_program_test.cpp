@@ -33,16 +33,16 @@ Job rotary_job(double step = 15) {
     return job_in(ready_cell("kr120-r2500-pro-rotary.toml"), {300, 240, 200}, 40, 120, step);
 }
 
-// The joints that hold a tip of a section, of the branch of the section and nearest to the ones given.
-std::optional<Joints> joints_at(const Job& job, const ProgramSection& section, Vec3 tip, const Joints& near) {
+// The joints that hold a tip of an operation, of the configuration of the operation and nearest to the ones given.
+std::optional<Joints> joints_at(const Job& job, const ProgramOperation& operation, Vec3 tip, const Joints& near) {
     const CellMachine& machine = *job.cell.machine;
-    const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[section.tool]);
+    const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[operation.tool]);
     const Pose setup =
-        table_in_cell(job.cell, section.table_angle) * setup_in_table(job.setup.placement, job.setup.spoil);
-    const Pose tip_in_cell = setup * tip_frame(tip, section.out, section.tool_turn);
+        table_in_cell(job.cell, operation.table_angle) * setup_in_table(job.setup.placement, job.setup.spoil);
+    const Pose tip_in_cell = setup * tip_frame(tip, operation.tool_axis, operation.redundancy_angle);
     const Pose flange = inverse(arm.base_in_cell) * tip_in_cell * inverse(arm.tip_in_flange);
     for (const ArmAnswer& answer : inverse(arm.geometry, flange, near)) {
-        if (!(answer.branch == section.branch)) continue;
+        if (!(answer.configuration == operation.configuration)) continue;
         Joints joints = answer.joints;
         for (std::size_t i = 0; i < axes_of_arm; ++i) {
             joints[i] += 2 * std::numbers::pi * std::nearbyint((near[i] - joints[i]) / (2 * std::numbers::pi));
@@ -59,12 +59,12 @@ double largest_step(const Joints& a, const Joints& b) {
 }
 
 // What is nearest to what for joints: arm and tool against block, floor and obstacles.
-double clearance_at(const Job& job, const ProgramSection& section, const Joints& joints, bool with_tool) {
-    const MovingBodies moving = bodies_at(job.cell, job.cell.machine->tools[section.tool], joints);
+double clearance_at(const Job& job, const ProgramOperation& operation, const Joints& joints, bool with_tool) {
+    const MovingBodies moving = bodies_at(job.cell, job.cell.machine->tools[operation.tool], joints);
     const StandingBodies standing = standing_bodies(job.cell);
     const Vec3 half{0.5 * job.setup.block.size.x, 0.5 * job.setup.block.size.y, 0};
     const Pose setup =
-        table_in_cell(job.cell, section.table_angle) * setup_in_table(job.setup.placement, job.setup.spoil);
+        table_in_cell(job.cell, operation.table_angle) * setup_in_table(job.setup.placement, job.setup.spoil);
     const PlacedBox block = placed(
         setup, {-half - Vec3{0, 0, job.setup.spoil}, half + Vec3{0, 0, job.setup.block.size.z - job.setup.spoil}});
     double least = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ double clearance_at(const Job& job, const ProgramSection& section, const Joints&
     return least;
 }
 
-void expect_way_clear(const Job& job, const ProgramSection& section, std::vector<Joints> way) {
+void expect_way_clear(const Job& job, const ProgramOperation& operation, std::vector<Joints> way) {
     for (std::size_t i = 1; i < way.size(); ++i) {
         const int steps = 1 + static_cast<int>(largest_step(way[i - 1], way[i]) / (1 * degree));
         for (int k = 0; k <= steps; ++k) {
@@ -87,7 +87,7 @@ void expect_way_clear(const Job& job, const ProgramSection& section, std::vector
             for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
                 joints[axis] = way[i - 1][axis] + k * (way[i][axis] - way[i - 1][axis]) / steps;
             }
-            ASSERT_GT(clearance_at(job, section, joints, true), 8);
+            ASSERT_GT(clearance_at(job, operation, joints, true), 8);
         }
     }
 }
@@ -95,17 +95,17 @@ void expect_way_clear(const Job& job, const ProgramSection& section, std::vector
 // Limits, continuity, speed and clearance of every move, and of what is between.
 void expect_held(const Job& job, const Program& program) {
     const CellMachine& machine = *job.cell.machine;
-    for (const ProgramSection& section : program.sections) {
-        const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[section.tool]);
-        Joints at = section.runs.front().start_joints;
-        Vec3 tip = section.runs.front().start;
+    for (const ProgramOperation& operation : program.operations) {
+        const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[operation.tool]);
+        Joints at = operation.runs.front().start_joints;
+        Vec3 tip = operation.runs.front().start;
         const auto go = [&](Vec3 to, double speed) {
             const int steps = 1 + static_cast<int>(norm(to - tip) / 7);
             for (int i = 1; i <= steps; ++i) {
-                const std::optional<Joints> next = joints_at(job, section, tip + (1.0 * i / steps) * (to - tip), at);
+                const std::optional<Joints> next = joints_at(job, operation, tip + (1.0 * i / steps) * (to - tip), at);
                 ASSERT_TRUE(next);
                 ASSERT_TRUE(is_within(arm.ranges, arm.margin - 1e-9, *next));
-                ASSERT_GT(clearance_at(job, section, *next, false), 9.9);
+                ASSERT_GT(clearance_at(job, operation, *next, false), 9.9);
                 for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
                     const double seconds = norm(to - tip) / steps / speed;
                     ASSERT_LE(std::abs((*next)[axis] - at[axis]), 1.02 * arm.ranges[axis].speed * seconds + 1e-6);
@@ -114,39 +114,39 @@ void expect_held(const Job& job, const Program& program) {
             }
             tip = to;
         };
-        for (const ProgramRun& run : section.runs) {
+        for (const ProgramRun& run : operation.runs) {
             go(run.start, run.link_speed);
             EXPECT_LT(largest_step(at, run.start_joints), 1e-6);
             for (const ProgramMove& move : run.moves) go(move.tip, move.speed);
             EXPECT_LT(largest_step(at, run.end_joints), 1e-6);
         }
         std::vector<Joints> way{program.home};
-        way.insert(way.end(), section.entry.targets.begin(), section.entry.targets.end());
-        expect_way_clear(job, section, way);
-        const Vec3 raised = section.runs.front().start + section.entry.raise * section.out;
-        const std::optional<Joints> start = joints_at(job, section, raised, way.back());
+        way.insert(way.end(), operation.entry.targets.begin(), operation.entry.targets.end());
+        expect_way_clear(job, operation, way);
+        const Vec3 retracted = operation.runs.front().start + operation.entry.retract * operation.tool_axis;
+        const std::optional<Joints> start = joints_at(job, operation, retracted, way.back());
         ASSERT_TRUE(start);
         EXPECT_LT(largest_step(*start, way.back()), 1e-6);
-        ASSERT_FALSE(section.exit.targets.empty());
-        EXPECT_EQ(section.exit.targets.back(), program.home);
-        for (const ProgramRun& run : section.runs) {
-            if (run.starts_from_home) expect_way_clear(job, section, {program.home, run.start_joints});
+        ASSERT_FALSE(operation.exit.targets.empty());
+        EXPECT_EQ(operation.exit.targets.back(), program.home);
+        for (const ProgramRun& run : operation.runs) {
+            if (run.starts_from_home) expect_way_clear(job, operation, {program.home, run.start_joints});
         }
-        way = section.exit.targets;
-        const Vec3 end = section.runs.back().moves.back().tip + section.exit.raise * section.out;
-        const std::optional<Joints> raised_end = joints_at(job, section, end, section.runs.back().end_joints);
-        ASSERT_TRUE(raised_end);
-        way.insert(way.begin(), *raised_end);
-        expect_way_clear(job, section, way);
+        way = operation.exit.targets;
+        const Vec3 end = operation.runs.back().moves.back().tip + operation.exit.retract * operation.tool_axis;
+        const std::optional<Joints> retracted_end = joints_at(job, operation, end, operation.runs.back().end_joints);
+        ASSERT_TRUE(retracted_end);
+        way.insert(way.begin(), *retracted_end);
+        expect_way_clear(job, operation, way);
     }
 }
 
-// All moves of all sections of an operation, in their order, without what a division of runs added.
-std::vector<Vec3> cuts_of(const Program& program, std::size_t operation) {
+// All moves of all program operations of a toolpath operation, in their order, without what a division of runs added.
+std::vector<Vec3> cuts_of(const Program& program, std::size_t number) {
     std::vector<Vec3> tips;
-    for (const ProgramSection& section : program.sections) {
-        if (section.operation != operation) continue;
-        for (const ProgramRun& run : section.runs) {
+    for (const ProgramOperation& operation : program.operations) {
+        if (operation.toolpath_operation != number) continue;
+        for (const ProgramRun& run : operation.runs) {
             for (const ProgramMove& move : run.moves) {
                 if (move.kind == MoveKind::cut) tips.push_back(move.tip);
             }
@@ -168,7 +168,7 @@ std::vector<Vec3> cuts_of(const Operation& operation) {
 TEST(MakeProgram, HoldsEveryPoseOfAFixedTable) {
     const Job job = kr60_job();
     const Program program = program_of(job);
-    ASSERT_GE(program.sections.size(), 3U);
+    ASSERT_GE(program.operations.size(), 3U);
     expect_held(job, program);
     for (std::size_t i = 0; i < job.toolpath.operations.size(); ++i) {
         EXPECT_EQ(cuts_of(program, i), cuts_of(job.toolpath.operations[i]));
@@ -180,8 +180,8 @@ TEST(MakeProgram, HoldsEveryPoseOfARotaryTable) {
     const Program program = program_of(job);
     expect_held(job, program);
     EXPECT_EQ(program.external_axis, 1);
-    for (const ProgramSection& section : program.sections) {
-        EXPECT_NEAR(std::remainder(section.table_angle - job.setup.placement.table_angle(section.direction),
+    for (const ProgramOperation& operation : program.operations) {
+        EXPECT_NEAR(std::remainder(operation.table_angle - job.setup.placement.table_angle(operation.orientation),
                                    2 * std::numbers::pi),
                     0, 1e-12);
     }
@@ -206,8 +206,8 @@ TEST(MakeProgram, DividesLongRuns) {
     Job job = kr60_job(2);
     job.cell.machine->program.lines_per_chunk = 300;
     const Program program = program_of(job);
-    for (const ProgramSection& section : program.sections) {
-        for (const ProgramRun& run : section.runs) EXPECT_LE(run.moves.size(), 300U);
+    for (const ProgramOperation& operation : program.operations) {
+        for (const ProgramRun& run : operation.runs) EXPECT_LE(run.moves.size(), 300U);
     }
     for (std::size_t i = 0; i < job.toolpath.operations.size(); ++i) {
         EXPECT_EQ(cuts_of(program, i), cuts_of(job.toolpath.operations[i]));
@@ -216,32 +216,32 @@ TEST(MakeProgram, DividesLongRuns) {
 }
 
 // Envelope regions are a hint: without them the search finds holds itself.
-TEST(MakeProgram, FindsHoldsWithoutAnEnvelope) {
+TEST(MakeProgram, FindsPosturesWithoutReachability) {
     Job job = kr60_job();
-    job.envelope = {};
+    job.reachability = {};
     expect_held(job, program_of(job));
 }
 
 TEST(MakeProgram, LowersSpeedsThatJointsCannotFollow) {
     Job job = kr60_job();
     for (JointRange& range : job.cell.machine->robot->ranges) range.speed *= 0.05;
-    job.envelope = {};
+    job.reachability = {};
     const Program program = program_of(job);
     std::size_t lowered = 0;
-    for (const ProgramSection& section : program.sections) lowered += section.lowered_moves;
+    for (const ProgramOperation& operation : program.operations) lowered += operation.lowered_moves;
     EXPECT_GT(lowered, 0U);
     expect_held(job, program);
 }
 
 // Axis 6 follows axis 1 while the tool keeps its orientation; cables that let it turn by 4 degrees carry no whole run.
-TEST(MakeProgram, DividesRunsAmongHolds) {
+TEST(MakeProgram, DividesRunsAmongConfigurations) {
     Job job = kr60_job();
-    job.envelope = {};
+    job.reachability = {};
     job.cell.machine->robot->cable->axis_6 = {-5 * degree, 5 * degree};
     job.toolpath.operations.pop_back();
     const Program program = program_of(job);
-    EXPECT_GT(program.sections.size(), 2U);
-    EXPECT_LT(program.sections.size(), 100U);
+    EXPECT_GT(program.operations.size(), 2U);
+    EXPECT_LT(program.operations.size(), 100U);
     for (std::size_t i = 0; i < job.toolpath.operations.size(); ++i) {
         EXPECT_EQ(cuts_of(program, i), cuts_of(job.toolpath.operations[i]));
     }
@@ -261,9 +261,9 @@ TEST(MakeProgram, RefusesWhatIsOutOfReach) {
     }
 }
 
-TEST(MakeProgram, LeavesOutTheLittleThatNoHoldCarries) {
+TEST(MakeProgram, LeavesOutTheLittleThatNoConfigurationTakes) {
     Job job = kr60_job(2);
-    job.envelope = {};
+    job.reachability = {};
     const Toolpath good = job.toolpath;
     std::vector<PathMove>& moves = job.toolpath.operations[1].runs[2].moves;
     moves[500].tip.z -= 170;  // through the table
@@ -311,7 +311,7 @@ TEST(MakeProgram, RefusesBadToolpathsByName) {
         "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].runs[1].moves.clear(); }), "run 2: has no moves"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].tool = 9; }), "tool is not in the cell file"), "");
-    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].direction = 7; }), "direction is not of the setup"), "");
+    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].orientation = 7; }), "direction is not of the setup"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].feed = 900; }), "feed 900"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].rpm = 90; }), "speed of the spindle 90"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].runs[0].moves[3].tip.x = std::nan(""); }), "move 4"), "");
@@ -323,7 +323,7 @@ TEST(MakeProgram, StopsWhenCancelled) {
     const std::atomic<bool> cancelled{true};
     Context context;
     context.cancelled = &cancelled;
-    EXPECT_THROW(make_program(job.toolpath, job.setup, job.envelope, job.cell, context), Cancelled);
+    EXPECT_THROW(make_program(job.toolpath, job.setup, job.reachability, job.cell, context), Cancelled);
 }
 
 TEST(MakeProgram, NeedsNoArm) {
@@ -339,7 +339,7 @@ TEST(MakeProgram, NeedsNoArm) {
 TEST(LoadData, HasTheCentreBetweenSpindleAndTool) {
     const Cell cell = ready_cell("kr60-ha.toml");
     const Spindle& spindle = cell.machine->spindle;
-    const CarvingTool& tool = cell.machine->tools[0];
+    const CuttingTool& tool = cell.machine->tools[0];
     const LoadData load = load_data(spindle, tool);
     EXPECT_DOUBLE_EQ(load.mass_kg, 16.2);
     EXPECT_NEAR(load.centre_in_flange.shift.z, 350 + (15 * -175 + 1.2 * 100) / 16.2, 1e-9);

@@ -45,7 +45,7 @@ TEST(Block, OfACellWithAMachineKeepsSeparateMarginsAndASpoilLayer) {
 
 TEST(Block, SpoilLayerIsDeepEnoughForTheRoundestTool) {
     Cell cell = machine_of({{"one", {108, 58, 63}, Material::eps}});
-    CarvingTool tool;
+    CuttingTool tool;
     tool.shape = ToolShape::ball;
     tool.diameter = 30;
     tool.corner_radius = 15;
@@ -57,7 +57,7 @@ TEST(Block, SpoilLayerIsDeepEnoughForTheRoundestTool) {
 
 TEST(Block, SawnIsAsSmallAsThePieceAllowsAndTheOffcutsAndKerfsAreTheRest) {
     Cell cell = machine_of({{"sheet", {2000, 1000, 500}, Material::pu_foam, true, 4}});
-    const CarvingBlock block = choose_block(cell, {300.5, 100, 50});
+    const StockBlock block = choose_block(cell, {300.5, 100, 50});
     EXPECT_TRUE(block.holds);
     EXPECT_TRUE(block.is_sawn);
     EXPECT_EQ(block.size, (Vec3{309, 108, 63}));
@@ -77,7 +77,7 @@ TEST(Block, SawnIsAsSmallAsThePieceAllowsAndTheOffcutsAndKerfsAreTheRest) {
 
 TEST(Block, NothingIsSawnOffThatIsThinnerThanTheSawCut) {
     const Cell cell = machine_of({{"sheet", {310, 110, 63}, Material::pu_foam, true, 4}});
-    const CarvingBlock block = choose_block(cell, {300, 100, 50});
+    const StockBlock block = choose_block(cell, {300, 100, 50});
     EXPECT_EQ(block.size, (Vec3{310, 110, 63}));
     EXPECT_TRUE(block.offcuts.empty());
 }
@@ -95,7 +95,7 @@ TEST(Block, IsNotSawnWhereOneOfTheListHoldsThePieceAsItIs) {
                                   {"small", {300, 250, 200}, Material::pu_foam}};
     const Cell cell = machine_of(list);
     for (const Vec3 piece : {Vec3{100, 50, 40}, Vec3{292, 242, 187}, Vec3{242, 292, 187}}) {
-        const CarvingBlock block = choose_block(cell, piece);
+        const StockBlock block = choose_block(cell, piece);
         EXPECT_EQ(block.stock, 1U);
         EXPECT_FALSE(block.is_sawn);
         EXPECT_TRUE(block.holds);
@@ -106,7 +106,7 @@ TEST(Block, IsNotSawnWhereOneOfTheListHoldsThePieceAsItIs) {
 TEST(Block, StockThatMayBeSawnIsNotWhereItIsAsThePieceNeedsIt) {
     // As it stands it needs no cut; turned by a quarter a cut would leave 1 mm of foam.
     const Cell cell = machine_of({{"sheet", {112, 110, 63}, Material::pu_foam, true, 3}});
-    const CarvingBlock block = choose_block(cell, {101, 99, 50});
+    const StockBlock block = choose_block(cell, {101, 99, 50});
     EXPECT_TRUE(block.holds);
     EXPECT_TRUE(block.offcuts.empty());
 }
@@ -144,7 +144,7 @@ TEST(Block, IsTheSmallestUnsawnOneUnlessASawCutSavesMuch) {
                 least = least == 0 ? volume(s) : std::min(least, volume(s));
             }
         }
-        const CarvingBlock chosen = choose_block(cell, piece);
+        const StockBlock chosen = choose_block(cell, piece);
         ASSERT_EQ(chosen.holds, least > 0 || can_be_sawn);
         const bool is_sawn = !chosen.offcuts.empty();
         ++rounds.at(!chosen.holds ? 3 : !is_sawn ? 0 : least > 0 ? 1 : 2);
@@ -181,7 +181,7 @@ TEST(Block, HoldsThePieceWheneverOneOfTheListDoesAndNoneThatDoesIsSmaller) {
             const Vec3 s = stock.size;
             if (holds(s) || holds({s.y, s.x, s.z})) least = least == 0 ? volume(s) : std::min(least, volume(s));
         }
-        const CarvingBlock chosen = choose_block(cell, piece);
+        const StockBlock chosen = choose_block(cell, piece);
         EXPECT_EQ(chosen.holds, least > 0);
         if (least > 0) {
             EXPECT_EQ(volume(chosen.size), least);

@@ -7,7 +7,7 @@
 
 #include "cam/setup/block.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/envelope.h"
+#include "cam/setup/stock_fit.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper {
@@ -28,7 +28,7 @@ bool stands(Vec3 block, const Cell& cell) {
     qchopper::Setup setup;
     setup.block.size = block;
     setup.box = {{0, 0, 0}, {0, 0, 0}};
-    const std::vector<Margin> margins = check_envelope(setup, cell).margins;
+    const std::vector<Margin> margins = check_stock_fit(setup, cell).margins;
     for (std::size_t m = 3; m < margins.size(); ++m) {
         if (margins[m].mm < -1e-6) return false;
     }
@@ -44,7 +44,7 @@ TEST(BlocksNeeded, TheLargestBlockStandsInTheCellAndNoLargerOne) {
         EXPECT_FALSE(stands(most + Vec3{0, 0, 0.01}, in)) << in.name;
     }
     Cell low = cell();
-    low.table.height = low.reach.min.z - 1;
+    low.table.height = low.workspace.min.z - 1;
     EXPECT_LE(largest_block(low).z, 0);
     EXPECT_TRUE(std::isinf(blocks_needed(usable_blocks(low), {1, 1, 1})));
 }
@@ -91,7 +91,7 @@ TEST(BlocksNeeded, LowBlocksAreNoHigherThanTheLongestToolIsLong) {
             continue;
         }
         double longest = 0;
-        for (const CarvingTool& tool : in.machine->tools) {
+        for (const CuttingTool& tool : in.machine->tools) {
             if (tool.shape != ToolShape::drill) longest = std::max(longest, tool.stick_out);
         }
         const Margins margins = margins_of(in);

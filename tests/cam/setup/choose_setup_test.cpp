@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cam/setup/envelope.h"
+#include "cam/setup/stock_fit.h"
 #include "cam/setup/undercut.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
@@ -55,7 +55,7 @@ void expect_rotation(const Pose& pose) {
 SetupOptions quick() {
     SetupOptions options;
     options.samples = 1'000;
-    options.map.foam_points = 1U << 16U;
+    options.map.stock_points = 1U << 16U;
     return options;
 }
 
@@ -103,14 +103,14 @@ TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
         ASSERT_EQ(choice.setups.size(), carrying == 0 ? 6 : carrying) << piece.name;
         ASSERT_EQ(best.base.has_value(), carrying > 0) << piece.name;
         with_base += carrying > 0 ? 1 : 0;
-        EXPECT_EQ(best.reach.method, ReachMethod::mapped);
+        EXPECT_EQ(best.access.method, AccessMethod::mapped);
         const bool any_fits = std::any_of(choice.setups.begin(), choice.setups.end(),
-                                          [](const qchopper::Setup& s) { return check_envelope(s, cell()).fits(); });
-        EXPECT_EQ(check_envelope(best, cell()).fits(), any_fits);
+                                          [](const qchopper::Setup& s) { return check_stock_fit(s, cell()).fits(); });
+        EXPECT_EQ(check_stock_fit(best, cell()).fits(), any_fits);
         for (std::size_t i = 1; i < choice.setups.size(); ++i) {
             const qchopper::Setup& other = choice.setups[i];
-            if (check_envelope(other, cell()).fits() != any_fits) continue;
-            EXPECT_LE(best.reach.unreachable_share(), other.reach.unreachable_share() + 0.001) << piece.name;
+            if (check_stock_fit(other, cell()).fits() != any_fits) continue;
+            EXPECT_LE(best.access.unreachable_share(), other.access.unreachable_share() + 0.001) << piece.name;
         }
     }
     EXPECT_GT(with_base, 20);
@@ -119,7 +119,7 @@ TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
 TEST(ChooseSetup, MapsAndSamplesAgree) {
     for (const Piece& piece : cut_shapes()) {
         SetupOptions mapped;
-        mapped.map.foam_points = 1U << 16U;
+        mapped.map.stock_points = 1U << 16U;
         SetupOptions sampled;
         sampled.mapped = 0;
         const std::vector<qchopper::Setup> by_samples = choose_setup(piece, cell(), sampled).setups;
@@ -127,7 +127,7 @@ TEST(ChooseSetup, MapsAndSamplesAgree) {
         const auto same = std::find_if(by_samples.begin(), by_samples.end(),
                                        [&](const qchopper::Setup& s) { return s.base_number == by_map.base_number; });
         ASSERT_NE(same, by_samples.end());
-        EXPECT_NEAR(same->reach.unreachable_share(), by_map.reach.unreachable_share(), 0.03) << piece.name;
+        EXPECT_NEAR(same->access.unreachable_share(), by_map.access.unreachable_share(), 0.03) << piece.name;
     }
 }
 
@@ -138,14 +138,14 @@ TEST(ChooseSetup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
         options.base = free.setups.back().base_number;
         const SetupChoice ordered = choose_setup(piece, cell(), options);
         EXPECT_EQ(ordered.setups.front().base_number, *options.base) << piece.name;
-        EXPECT_EQ(ordered.setups.front().reach.method, ReachMethod::mapped);
+        EXPECT_EQ(ordered.setups.front().access.method, AccessMethod::mapped);
         options.max_directions = 1;
         options.mapped = 0;
         const SetupChoice single = choose_setup(piece, cell(), options);
-        EXPECT_EQ(single.setups.front().reach.directions.size(), 1U);
+        EXPECT_EQ(single.setups.front().access.orientations.size(), 1U);
         options.max_directions = 8;
         const SetupChoice several = choose_setup(piece, cell(), options);
-        EXPECT_LE(several.setups.front().reach.unreachable_mm2(), single.setups.front().reach.unreachable_mm2());
+        EXPECT_LE(several.setups.front().access.unreachable_mm2(), single.setups.front().access.unreachable_mm2());
     }
 }
 
@@ -157,8 +157,8 @@ TEST(ChooseSetup, StatesBelongToTheSetupThatIsFirst) {
         for (std::size_t t = 0; t < choice.states.size(); ++t) {
             if (choice.states[t] == SurfaceState::hidden) hidden += norm(area_vector(*piece.mesh, t));
         }
-        const SurfaceReach& reach = choice.setups.front().reach;
-        EXPECT_NEAR(hidden / reach.area_mm2, reach.hidden_mm2 / reach.area_mm2, 0.05) << piece.name;
+        const SurfaceAccess& access = choice.setups.front().access;
+        EXPECT_NEAR(hidden / access.area_mm2, access.hidden_mm2 / access.area_mm2, 0.05) << piece.name;
     }
 }
 
@@ -189,7 +189,7 @@ TEST(ChooseSetup, TurningPieceAndBoundsTogetherChangesOnlyWhatDependsOnTheDirect
         ASSERT_EQ(after.size(), before.size()) << piece.name;
         // A side of a box that only few directions of the set face is reached or not as a whole; the dense ones even
         // that out.
-        EXPECT_NEAR(after.front().reach.all_directions_share, before.front().reach.all_directions_share, 0.05)
+        EXPECT_NEAR(after.front().access.all_directions_share, before.front().access.all_directions_share, 0.05)
             << piece.name;
         for (const qchopper::Setup& setup : before) {
             const auto turned = std::find_if(after.begin(), after.end(), [&](const qchopper::Setup& s) {
@@ -210,7 +210,7 @@ TEST(ChooseSetup, ABoxOnItsCapHasNoUndercut) {
     const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, 3);
     EXPECT_EQ(setup.undercut, 0);
-    EXPECT_NEAR(setup.reach.unreachable_share(), 0, 1e-6);
+    EXPECT_NEAR(setup.access.unreachable_share(), 0, 1e-6);
     EXPECT_NEAR(setup.base_mm2, 30 * 90, 1e-9);
     EXPECT_NEAR(setup.projected_area_mm2, 30 * 90, 27);
     EXPECT_TRUE(setup.warnings.empty());
@@ -258,7 +258,7 @@ TEST(ChooseSetup, APieceWithoutCapsLiesOnASideOfItsBox) {
     EXPECT_EQ(setup.base, std::nullopt);
     EXPECT_EQ(setup.warnings.size(), 1U);
     // Six sides hide 10 x 20, 10 x 50 or 20 x 50 of 3400: the smallest is the one below.
-    EXPECT_NEAR(setup.reach.unreachable_share(), 200.0 / 3400, 0.002);
+    EXPECT_NEAR(setup.access.unreachable_share(), 200.0 / 3400, 0.002);
     EXPECT_NEAR(setup.box.size().z, 50, 1e-6);
 }
 
@@ -287,7 +287,7 @@ TEST(ChooseSetup, APieceIsTurnedWhereItsBlockFitsIntoTheCellOnlySo) {
     expect_rotation(across.piece_in_setup);
     EXPECT_EQ(bounds(apply(across.piece_in_setup, *piece.mesh)), across.box);
     EXPECT_EQ(across.block.size, (Vec3{60, 100, 50}));
-    EXPECT_TRUE(check_envelope(across, in).fits());
+    EXPECT_TRUE(check_stock_fit(across, in).fits());
     EXPECT_TRUE(fits_cell(piece, in));
     in.table.size_y = 80;
     const qchopper::Setup neither = choose_setup(piece, in).setups.front();
@@ -309,25 +309,25 @@ TEST(ChooseSetup, TheMachineMustHoldWhatFitsByBoxes) {
     EXPECT_TRUE(fits_cell_and_machine(standing_box({0, 0, 0}, {90, 50, 45}, 0), cell()));  // boxes only
 }
 
-// Height maps know of the holder, samples do not. One that is held may leave up to the cell's limit.
+// Height fields know of the holder, samples do not. One that is held may leave up to the cell's limit.
 TEST(ChooseSetup, TheOneThatIsTakenIsJudgedByMapsAndNoOtherLooksBetter) {
     const Cell short_tools = [] {
         Cell in = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "irb6640-185-2.8.toml");
-        for (CarvingTool& tool : in.machine->tools) tool.stick_out = 10;
+        for (CuttingTool& tool : in.machine->tools) tool.stick_out = 10;
         return in;
     }();
     for (const Piece& piece : cut_shapes()) {
         SetupOptions options;
         options.mapped = 1;
         options.samples = 500;
-        options.map = {.cell = 1, .foam_points = 1U << 12U};
+        options.map = {.cell = 1, .stock_points = 1U << 12U};
         const std::vector<qchopper::Setup> setups = choose_setup(piece, short_tools, options).setups;
-        const double share = setups.front().reach.unreachable_share();
+        const double share = setups.front().access.unreachable_share();
         const bool is_held = setups.front().workholding->passes();
-        EXPECT_EQ(setups.front().reach.method, ReachMethod::mapped);
+        EXPECT_EQ(setups.front().access.method, AccessMethod::mapped);
         for (const qchopper::Setup& setup : setups) {
-            if (!check_envelope(setup, short_tools).fits()) continue;
-            const double other = setup.reach.unreachable_share();
+            if (!check_stock_fit(setup, short_tools).fits()) continue;
+            const double other = setup.access.unreachable_share();
             EXPECT_LE(share, std::max(other + 0.001, is_held ? short_tools.machine->max_unreachable : 0)) << piece.name;
             EXPECT_FALSE(!is_held && setup.workholding->passes() && other <= share) << piece.name;
         }

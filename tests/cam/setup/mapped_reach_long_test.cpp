@@ -1,4 +1,4 @@
-// Height maps of real scans against rays.
+// Height fields of real scans against rays.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace qchopper {
 namespace {
 
-TEST(MappedReachLong, ReachesTheAreaThatRaysReachOnEveryValidScan) {
+TEST(MappedAccessLong, ReachesTheAreaThatRaysReachOnEveryValidScan) {
     const std::vector<RealScan> scans = valid_scans(QCHOPPER_MESHES, 400'000);
     if (!std::filesystem::exists(QCHOPPER_MESHES)) GTEST_SKIP() << "skipped: the real meshes are not here";
     std::size_t taken = 0;

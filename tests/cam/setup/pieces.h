@@ -1,4 +1,4 @@
-// Pieces for the tests of this folder: shapes that were really cut, and a cell to carve them in.
+// Pieces for the tests of this folder: shapes that were really cut, and a cell to mill them in.
 
 #pragma once
 
@@ -68,7 +68,7 @@ inline Cell cell() {
     Cell cell;
     cell.name = "test";
     cell.id = 1;
-    cell.reach = {{-1000, -1000, 0}, {1000, 1000, 1000}};
+    cell.workspace = {{-1000, -1000, 0}, {1000, 1000, 1000}};
     cell.table = {0, 0, 1500, 1200, 100};
     cell.stock = {{"small", {100, 60, 50}, Material::eps},
                   {"flat", {400, 300, 60}, Material::pu_foam},

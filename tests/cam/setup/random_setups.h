@@ -25,7 +25,7 @@ struct BoxSetup {
 };
 
 // The way out of a tool with a tilt that leans towards an azimuth, both in degrees.
-inline Vec3 out(double tilt_deg, double azimuth_deg) {
+inline Vec3 tool_axis(double tilt_deg, double azimuth_deg) {
     const double t = tilt_deg * std::numbers::pi / 180;
     const double a = azimuth_deg * std::numbers::pi / 180;
     return {std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)};
@@ -41,7 +41,7 @@ inline BoxSetup box_setup(const Cell& cell, Vec3 size, const std::vector<Vec3>& 
     setup.spoil = margins.spoil;
     setup.block.size = size + Vec3{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
     for (const Vec3& direction : directions) {
-        setup.reach.directions.push_back({direction, 180 / std::numbers::pi * std::acos(direction.z), 0, 0});
+        setup.access.orientations.push_back({direction, 180 / std::numbers::pi * std::acos(direction.z), 0, 0});
     }
     return made;
 }
@@ -54,7 +54,7 @@ inline BoxSetup random_setup(const Cell& cell, std::mt19937& random) {
     const Vec3 size{number(100, 0.9 * cell.table.size_x), number(100, 0.9 * cell.table.size_y), number(50, 950)};
     std::vector<Vec3> directions{{0, 0, 1}};
     const int further = cell.machine->robot ? static_cast<int>(number(0, 4)) : 0;
-    for (int i = 0; i < further; ++i) directions.push_back(out(number(10, 60), number(0, 360)));
+    for (int i = 0; i < further; ++i) directions.push_back(tool_axis(number(10, 60), number(0, 360)));
     return box_setup(cell, size, directions);
 }
 
@@ -64,7 +64,7 @@ struct ScanStep {
 };
 
 // Whether any place of a scan about the middle of the table holds all poses.
-inline bool scan_holds(Setup setup, const std::vector<DirectionPoses>& poses, const Cell& cell, ScanStep step) {
+inline bool scan_holds(Setup setup, const std::vector<OrientationPoses>& poses, const Cell& cell, ScanStep step) {
     const bool turns = !cell.machine->rotary_table;
     const int count = static_cast<int>(1500 / step.shift);
     for (double turn = 0; turn < (turns ? 359.9 : 0.1); turn += step.turn_deg) {

@@ -1,4 +1,4 @@
-// Compares what height maps reach with rays from the middles of triangles.
+// Compares what height fields reach with rays from the middles of triangles.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cam/setup/mapped_reach.h"
+#include "cam/setup/mapped_access.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/rays.h"
 
@@ -62,7 +62,7 @@ inline double expect_rays_agree(const TriangleMesh& mesh, Vec3 direction, double
     setup.up = direction;
     setup.directions = {direction};
     setup.block = bounds(mesh);
-    const MappedReach found = mapped_reach(setup, {cell, 1U << 10U});
+    const MappedAccess found = mapped_access(setup, {cell, 1U << 10U});
     const std::array<const TriangleMesh*, 1> meshes{&mesh};
     const PreciseRays rays(meshes);
     const double off = 1e-6 * norm(bounds(mesh).size());

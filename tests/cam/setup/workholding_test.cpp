@@ -13,7 +13,7 @@
 #include "cam/setup/standing_sections.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/plane_section.h"
-#include "segment/raster/height_map.h"
+#include "segment/raster/height_field.h"
 #include "tests/cam/setup/pieces.h"
 #include "tests/cam/setup/solids.h"
 
@@ -286,17 +286,17 @@ TEST(Workholding, ScalesWithStrengthsAndNeverPassesWithMoreForce) {
     EXPECT_NEAR(check_of(mesh, cell).foam_force, 3 * one.foam_force, 1e-9);
 }
 
-// A ball lies on a point, but carved from straight above it stands on a cylinder of foam of its own radius.
+// A ball lies on a point, but milled from straight above it stands on a cylinder of foam of its own radius.
 TEST(StandingSections, FoamThatStaysUnderAPieceCarriesIt) {
     const TriangleMesh mesh = shapes::moved(shapes::ball({0, 0, 0}, 40, 24), {0, 0, 40});
     qchopper::Setup setup = standing(mesh);
     setup.piece_in_setup.shift.z = -setup.box.min.z;
     setup.box = {{setup.box.min.x, setup.box.min.y, 0}, {setup.box.max.x, setup.box.max.y, setup.box.size().z}};
     EXPECT_LT(standing_sections(mesh, setup).front().area_mm2, 100);
-    FoamPoints foam(mesh, setup.piece_in_setup, setup.box, 1U << 18U);
-    foam.carve(height_map(mesh, {0, 0, 1}, 0.5));
+    StockPoints stock_points(mesh, setup.piece_in_setup, setup.box, 1U << 18U);
+    stock_points.mill(height_field(mesh, {0, 0, 1}, 0.5));
     const double r = setup.box.size().x / 2;
-    for (const StandingSection& s : standing_sections(mesh, setup, &foam)) {
+    for (const StandingSection& s : standing_sections(mesh, setup, &stock_points)) {
         EXPECT_NEAR(s.area_mm2, pi * r * r, 0.05 * pi * r * r) << s.z;
         EXPECT_NEAR(s.modulus_mm3, pi * r * r * r / 4, 0.08 * pi * r * r * r / 4) << s.z;
     }
@@ -318,7 +318,7 @@ Piece bar(bool is_notched) {
 SetupOptions quick() {
     SetupOptions options;
     options.samples = 1000;
-    options.map.foam_points = 1U << 14U;
+    options.map.stock_points = 1U << 14U;
     return options;
 }
 
@@ -343,10 +343,10 @@ TEST(Workholding, IsPreferredUpToTheLimitOfWhatIsOutOfReach) {
     const SetupChoice reached = choose_setup(bar(true), cell, quick());
     EXPECT_EQ(reached.setups.front().base, 0);
     EXPECT_FALSE(reached.setups.front().workholding->passes()) << "and it is told";
-    EXPECT_LT(reached.setups.front().reach.unreachable_share(), 0.02);
+    EXPECT_LT(reached.setups.front().access.unreachable_share(), 0.02);
     ASSERT_EQ(reached.setups.size(), 2U);
     EXPECT_TRUE(reached.setups.back().workholding->passes());
-    EXPECT_GT(reached.setups.back().reach.unreachable_share(), 0.1);
+    EXPECT_GT(reached.setups.back().access.unreachable_share(), 0.1);
     cell.machine->max_unreachable = 0.5;
     EXPECT_EQ(choose_setup(bar(true), cell, quick()).setups.front().base, 1);
 }

@@ -9,9 +9,9 @@
 #include <limits>
 #include <random>
 
+#include "cam/stock/cl_surface.h"
 #include "cam/stock/roughing_limit.h"
-#include "cam/stock/tip_surface.h"
-#include "segment/raster/disc_max.h"
+#include "segment/raster/disc_dilation.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -23,13 +23,13 @@ using test_pieces::flat_tool;
 using test_pieces::random_map;
 using test_pieces::setup_of;
 
-TEST(DiscMax, IsThatOfAPlainLoop) {
-    const HeightMap map = random_map(31, 23, 0.7, 1);
+TEST(DilateByDisc, IsThatOfAPlainLoop) {
+    const HeightField map = random_map(31, 23, 0.7, 1);
     for (const double radius : {0.0, 0.5, 0.7, 2.1, 5.3, 40.0}) {
-        const HeightMap found = disc_max(map, radius);
+        const HeightField found = dilate_by_disc(map, radius);
         for (std::size_t r = 0; r < map.rows; ++r) {
             for (std::size_t c = 0; c < map.columns; ++c) {
-                float most = HeightMap::nothing;
+                float most = HeightField::nothing;
                 for (std::size_t v = 0; v < map.rows; ++v) {
                     for (std::size_t u = 0; u < map.columns; ++u) {
                         const double x = static_cast<double>(u) - static_cast<double>(c);
@@ -40,10 +40,10 @@ TEST(DiscMax, IsThatOfAPlainLoop) {
                 ASSERT_EQ(found.at(c, r), most) << radius;
                 const double x = 0.7 * (static_cast<double>(c) + 0.5);
                 const double y = 0.7 * (static_cast<double>(r) + 0.5);
-                ASSERT_GE(disc_max_at(map, x, y, radius + 1e-9), most);
-                const auto highest = static_cast<double>(disc_max_at(map, x, y, radius));
-                ASSERT_TRUE(is_disc_above(map, x, y, radius, highest - 0.01));
-                ASSERT_FALSE(is_disc_above(map, x, y, radius, highest));
+                ASSERT_GE(dilation_at(map, x, y, radius + 1e-9), most);
+                const auto highest = static_cast<double>(dilation_at(map, x, y, radius));
+                ASSERT_TRUE(is_dilation_above(map, x, y, radius, highest - 0.01));
+                ASSERT_FALSE(is_dilation_above(map, x, y, radius, highest));
             }
         }
     }
@@ -51,7 +51,7 @@ TEST(DiscMax, IsThatOfAPlainLoop) {
 
 TEST(MarkedWithin, IsWhereTheHighestOfDiscsIsMarked) {
     for (const std::size_t columns : {1U, 63U, 64U, 65U, 150U}) {
-        HeightMap map = random_map(columns, 23, 1, 5);
+        HeightField map = random_map(columns, 23, 1, 5);
         std::vector<std::uint8_t> marks(map.height.size());
         std::mt19937 random(3);
         for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -59,7 +59,7 @@ TEST(MarkedWithin, IsWhereTheHighestOfDiscsIsMarked) {
             map.height[i] = marks[i];
         }
         for (const double cells : {0.0, 1.0, 2.9, 12.0, 64.0, 130.5}) {
-            const HeightMap highest = disc_max(map, cells);
+            const HeightField highest = dilate_by_disc(map, cells);
             const std::vector<std::uint8_t> found = marked_within(marks, columns, 23, cells);
             for (std::size_t i = 0; i < marks.size(); ++i) {
                 ASSERT_EQ(found[i], highest.height[i] == 1 ? 1 : 0) << columns << ' ' << cells << ' ' << i;
@@ -70,8 +70,8 @@ TEST(MarkedWithin, IsWhereTheHighestOfDiscsIsMarked) {
 
 // A way of a tool in the map of a direction, and whether it removes a point.
 struct Way {
-    std::size_t direction;
-    CarvingTool tool;
+    std::size_t orientation;
+    CuttingTool tool;
     Vec3 from, to;
     bool removes(Vec3 p) const {
         for (int i = 0; i <= 400; ++i) {
@@ -89,10 +89,10 @@ class StockOfRandomWays {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> unit(0, 1);
         for (std::size_t d = 0; d < 2; ++d) {
-            HeightMap frame = target_map(setup, mesh, d, {1.3, 0, 15});
-            HeightMap removed = frame;
+            HeightField frame = piece_height_field(setup, mesh, d, {1.3, 0, 15});
+            HeightField removed = frame;
             std::fill(removed.height.begin(), removed.height.end(), std::numeric_limits<float>::infinity());
-            HeightMap other = removed;
+            HeightField other = removed;
             for (int k = 0; k < 6; ++k) {
                 const auto place = [&] {
                     return Vec3{unit(random) * 1.3 * static_cast<double>(frame.columns),
@@ -105,9 +105,9 @@ class StockOfRandomWays {
             frames.push_back(frame);
         }
     }
-    bool is_foam(Vec3 p) const {
+    bool is_stock(Vec3 p) const {
         return std::none_of(ways.begin(), ways.end(), [&](const Way& way) {
-            return way.removes(setup_to_map(setup_, frames[way.direction], p));
+            return way.removes(setup_to_field(setup_, frames[way.orientation], p));
         });
     }
 
@@ -117,7 +117,7 @@ class StockOfRandomWays {
  public:
     InProcessStock stock;
     std::vector<Way> ways;
-    std::vector<HeightMap> frames;
+    std::vector<HeightField> frames;
 };
 
 TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
@@ -126,23 +126,23 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
     for (unsigned seed = 1; seed <= 3; ++seed) {
-        const StockOfRandomWays carved(setup, mesh, seed);
-        std::vector<HeightMap> highest;
-        std::vector<HeightMap> lowest;
-        for (std::size_t d = 0; d < 2; ++d) highest.push_back(carved.stock.highest(d, carved.frames[d]));
-        for (std::size_t d = 0; d < 2; ++d) lowest.push_back(carved.stock.lowest(d, carved.frames[d]));
+        const StockOfRandomWays milled(setup, mesh, seed);
+        std::vector<HeightField> highest;
+        std::vector<HeightField> lowest;
+        for (std::size_t d = 0; d < 2; ++d) highest.push_back(milled.stock.highest(d, milled.frames[d]));
+        for (std::size_t d = 0; d < 2; ++d) lowest.push_back(milled.stock.lowest(d, milled.frames[d]));
         std::size_t foam = 0;
         std::size_t told = 0;
         for (int k = 0; k < 20000; ++k) {
             const Vec3 size = setup.block.size;
             const Vec3 p{(unit(random) - 0.5) * size.x, (unit(random) - 0.5) * size.y,
                          unit(random) * size.z - setup.spoil};
-            told += carved.stock.may_be_foam(p) ? 1 : 0;
-            if (!carved.is_foam(p)) continue;
+            told += milled.stock.may_be_stock(p) ? 1 : 0;
+            if (!milled.is_stock(p)) continue;
             ++foam;
-            ASSERT_TRUE(carved.stock.may_be_foam(p));
+            ASSERT_TRUE(milled.stock.may_be_stock(p));
             for (std::size_t d = 0; d < 2; ++d) {
-                const Vec3 q = setup_to_map(setup, highest[d], p);
+                const Vec3 q = setup_to_field(setup, highest[d], p);
                 const auto c = static_cast<std::size_t>(q.x / 1.3);
                 const auto r = static_cast<std::size_t>(q.y / 1.3);
                 ASSERT_GE(static_cast<double>(highest[d].at(c, r)), q.z - 1e-3) << seed << " direction " << d;
@@ -155,7 +155,7 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
 }
 
 // The lowest point of a tool over a cell, at many places of a line.
-double lowest_over(const CarvingTool& tool, double x, double y, double beside, Vec3 from, Vec3 to) {
+double lowest_over(const CuttingTool& tool, double x, double y, double beside, Vec3 from, Vec3 to) {
     const double radius = 0.5 * tool.diameter;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= 4000; ++i) {
@@ -173,16 +173,16 @@ TEST(ToolSweep, LowersCellsAsPlacesAlongTheWayDo) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int k = 0; k < 30; ++k) {
-        const CarvingTool tool = k % 3 == 0 ? flat_tool(8) : ball_tool(12);
+        const CuttingTool tool = k % 3 == 0 ? flat_tool(8) : ball_tool(12);
         const auto place = [&] { return Vec3{40 * unit(random) - 4, 36 * unit(random) - 4, 40 * unit(random)}; };
         const Vec3 from = place();
         Vec3 to = k % 4 == 0 ? from + Vec3{unit(random), 0.1 * unit(random), 10 * unit(random)} : place();
         if (k % 5 == 0) to.x = from.x;
         if (k % 10 == 0) to.y = from.y;
         if (k % 3 == 0 && k % 2 == 0) to.z = from.z;
-        HeightMap map = random_map(41, 35, cell, 1);
+        HeightField map = random_map(41, 35, cell, 1);
         std::fill(map.height.begin(), map.height.end(), std::numeric_limits<float>::infinity());
-        HeightMap other = map;
+        HeightField other = map;
         ToolSweep(tool, cell, slack).move(map, other, from, to);
         EXPECT_EQ(map.height, other.height);
         // Places a cell apart, where the tool is flat and the way is not.
@@ -203,15 +203,16 @@ TEST(ToolSweep, LowersCellsAsPlacesAlongTheWayDo) {
     }
 }
 
-// Down or up through the middle of a cell in steps of a cell, to the first point that may be foam; none: nothing.
-float first_foam(const InProcessStock& stock, const Setup& setup, const HeightMap& frame, Vec3 begin, double end) {
+// Down or up through the centre of a cell in steps of a cell, to the first point that may be foam; none: nothing.
+float first_of_stock(const InProcessStock& stock, const Setup& setup, const HeightField& frame, Vec3 begin,
+                     double end) {
     const double step = end > begin.z ? frame.cell : -frame.cell;
     for (int k = 0; std::abs(step) * k < std::abs(end - begin.z); ++k) {
         const double z = begin.z + step * k;
-        if (!stock.may_be_foam(map_to_setup(setup, frame, {begin.x, begin.y, z}))) continue;
+        if (!stock.may_be_stock(field_to_setup(setup, frame, {begin.x, begin.y, z}))) continue;
         return static_cast<float>(k == 0 ? begin.z : z - step);
     }
-    return HeightMap::nothing;
+    return HeightField::nothing;
 }
 
 bool are_near(float a, float b) {
@@ -222,23 +223,23 @@ bool are_near(float a, float b) {
 TEST(InProcessStock, AlongRaysIsThatOfAPlainLoop) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
     const auto setup = setup_of(mesh, 8, 50);
-    InProcessStock stock(setup, FoamCells::middles);
-    stock.remove_above(1, target_map(setup, mesh, 1, {0.7, 0, 15}));
-    const HeightMap frame = target_map(setup, mesh, 0, {0.7, 0, 15});
-    const HeightMap highest = stock.highest(0, frame);
-    const HeightMap lowest = stock.lowest(0, frame);
-    const double bottom = setup_to_map(setup, frame, {0, 0, -setup.spoil}).z;
+    InProcessStock stock(setup, StockCells::centres);
+    stock.remove_above(1, piece_height_field(setup, mesh, 1, {0.7, 0, 15}));
+    const HeightField frame = piece_height_field(setup, mesh, 0, {0.7, 0, 15});
+    const HeightField highest = stock.highest(0, frame);
+    const HeightField lowest = stock.lowest(0, frame);
+    const double bottom = setup_to_field(setup, frame, {0, 0, -setup.spoil}).z;
     const double top = bottom + setup.block.size.z;
     std::size_t between = 0;
     for (std::size_t row = 0; row < frame.rows; ++row) {
         for (std::size_t column = 0; column < frame.columns; ++column) {
             const double x = frame.cell * (static_cast<double>(column) + 0.5);
             const double y = frame.cell * (static_cast<double>(row) + 0.5);
-            const float from_above = first_foam(stock, setup, frame, {x, y, top}, bottom);
+            const float from_above = first_of_stock(stock, setup, frame, {x, y, top}, bottom);
             ASSERT_TRUE(are_near(highest.at(column, row), from_above)) << column << ' ' << row;
-            const float from_below = first_foam(stock, setup, frame, {x, y, bottom}, top);
+            const float from_below = first_of_stock(stock, setup, frame, {x, y, bottom}, top);
             ASSERT_TRUE(are_near(lowest.at(column, row), from_below)) << column << ' ' << row;
-            if (from_above != HeightMap::nothing && static_cast<double>(from_above) < top - 1) ++between;
+            if (from_above != HeightField::nothing && static_cast<double>(from_above) < top - 1) ++between;
         }
     }
     EXPECT_GT(between, 1000U);
@@ -247,27 +248,27 @@ TEST(InProcessStock, AlongRaysIsThatOfAPlainLoop) {
 TEST(InProcessStock, OfAWholeBlockIsItsTop) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
     const auto setup = setup_of(mesh, 8);
-    const HeightMap frame = target_map(setup, mesh, 0, {1, 0, 5});
-    const HeightMap top = InProcessStock(setup).highest(0, frame);
-    const Vec3 middle = setup_to_map(setup, frame, {0, 0, 38});
+    const HeightField frame = piece_height_field(setup, mesh, 0, {1, 0, 5});
+    const HeightField top = InProcessStock(setup).highest(0, frame);
+    const Vec3 middle = setup_to_field(setup, frame, {0, 0, 38});
     EXPECT_NEAR(top.at(static_cast<std::size_t>(middle.x), static_cast<std::size_t>(middle.y)), middle.z, 1e-4);
-    EXPECT_EQ(top.at(0, 0), HeightMap::nothing);
+    EXPECT_EQ(top.at(0, 0), HeightField::nothing);
 }
 
 TEST(InProcessStock, OfAWholeBlockTheLowestFoamOfATiltedRayIsOnItsFarSide) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
     const auto setup = setup_of(mesh, 8, 50);
-    const HeightMap frame = target_map(setup, mesh, 1, {1, 0, 15});
-    const HeightMap lowest = InProcessStock(setup, FoamCells::middles).lowest(1, frame);
+    const HeightField frame = piece_height_field(setup, mesh, 1, {1, 0, 15});
+    const HeightField lowest = InProcessStock(setup, StockCells::centres).lowest(1, frame);
     const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
     std::size_t on_bottom = 0;
     std::size_t on_sides = 0;
     for (std::size_t row = 0; row < frame.rows; ++row) {
         for (std::size_t column = 0; column < frame.columns; ++column) {
             const auto z = static_cast<double>(lowest.at(column, row));
-            if (lowest.at(column, row) == HeightMap::nothing) continue;
+            if (lowest.at(column, row) == HeightField::nothing) continue;
             const Vec3 p =
-                map_to_setup(setup, frame, {static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, z});
+                field_to_setup(setup, frame, {static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, z});
             const double beside = std::max(std::abs(p.x) - half.x, std::abs(p.y) - half.y);
             const double above = p.z + setup.spoil;
             EXPECT_NEAR(std::min(std::abs(beside), std::abs(above)), 0, 1e-3);
@@ -278,15 +279,15 @@ TEST(InProcessStock, OfAWholeBlockTheLowestFoamOfATiltedRayIsOnItsFarSide) {
     EXPECT_GT(on_sides, 500U);
 }
 
-TEST(RaiseToFoam, KeepsTheTipAtMostALevelBelowTheLowestFoamUnderTheTool) {
-    const HeightMap before = random_map(40, 30, 1, 3);
-    HeightMap lowest = random_map(40, 30, 1, 4);
+TEST(StayNearStock, KeepsTheTipAtMostALevelBelowTheLowestFoamUnderTheTool) {
+    const HeightField before = random_map(40, 30, 1, 3);
+    HeightField lowest = random_map(40, 30, 1, 4);
     for (std::size_t i = 0; i < lowest.height.size(); ++i) {
         lowest.height[i] += 20;
-        if (i % 40 > 12) lowest.height[i] = HeightMap::nothing;  // no foam there
+        if (i % 40 > 12) lowest.height[i] = HeightField::nothing;  // no foam there
     }
-    HeightMap tip = before;
-    raise_to_foam(tip, lowest, flat_tool(2), 5);
+    HeightField tip = before;
+    stay_near_stock(tip, lowest, flat_tool(2), 5);
     std::size_t raised = 0;
     for (std::size_t row = 0; row < tip.rows; ++row) {
         for (std::size_t column = 0; column < tip.columns; ++column) {
@@ -297,7 +298,7 @@ TEST(RaiseToFoam, KeepsTheTipAtMostALevelBelowTheLowestFoamUnderTheTool) {
                 for (std::size_t c = 0; c < tip.columns; ++c) {
                     const double far = std::hypot(static_cast<double>(c) - static_cast<double>(column),
                                                   static_cast<double>(r) - static_cast<double>(row));
-                    if (far <= 1 && lowest.at(c, r) != HeightMap::nothing) least = std::min(least, lowest.at(c, r));
+                    if (far <= 1 && lowest.at(c, r) != HeightField::nothing) least = std::min(least, lowest.at(c, r));
                 }
             }
             if (least < std::numeric_limits<float>::infinity()) {

@@ -19,7 +19,7 @@ namespace {
 
 using test_pieces::setup_of;
 
-struct Carved {
+struct Milled {
     TriangleMesh mesh;  // in setup coordinates
     Setup setup;
     Cell cell;
@@ -28,8 +28,8 @@ struct Carved {
 };
 
 // `mesh` is not moved by the setup but for its middle.
-std::unique_ptr<Carved> carved(const TriangleMesh& mesh) {
-    auto made = std::make_unique<Carved>();
+std::unique_ptr<Milled> milled(const TriangleMesh& mesh) {
+    auto made = std::make_unique<Milled>();
     made->setup = setup_of(mesh, 5);
     made->mesh = mesh;
     for (Vec3& p : made->mesh.points) p = apply(made->setup.piece_in_setup, p);
@@ -43,22 +43,22 @@ std::unique_ptr<Carved> carved(const TriangleMesh& mesh) {
 }
 
 // A box of 60 mm by 40 mm, 50 mm tall.
-const Carved& box() {
-    static const std::unique_ptr<Carved> made = carved(shapes::box({-30, -20, 0}, {30, 20, 50}));
+const Milled& box() {
+    static const std::unique_ptr<Milled> made = milled(shapes::box({-30, -20, 0}, {30, 20, 50}));
     return *made;
 }
 
-Drilling drilled(const Carved& on, const DrillHole& hole) {
+Drilling drilled(const Milled& on, const DrillHole& hole) {
     return drill_holes({&hole, 1}, on.setup, on.mesh, on.cell, *on.left);
 }
 
 TEST(Drilling, GoesDownInPecksUntilTheFullDiameterIsAsDeepAsTheHole) {
     const DrillHole hole{3, {5, -4, 50}, {0, 0, 1}, 8, 22, 6, {}};
     const Drilling drilling = drilled(box(), hole);
-    EXPECT_TRUE(drilling.directions.empty()) << "straight from above is a direction of the setup";
+    EXPECT_TRUE(drilling.orientations.empty()) << "straight from above is a direction of the setup";
     ASSERT_EQ(drilling.operations.size(), 1U);
     const Operation& operation = drilling.operations.front();
-    const CarvingTool& tool = box().cell.machine->tools[operation.tool];
+    const CuttingTool& tool = box().cell.machine->tools[operation.tool];
     EXPECT_EQ(operation.kind, OperationKind::drilling);
     EXPECT_TRUE(is_drill(tool));
     EXPECT_EQ(tool.diameter, 8);
@@ -85,15 +85,15 @@ TEST(Drilling, InAWholeBlockTakesTheHoleAndTheFoamOverIt) {
     test_pieces::PlainReplay replay(box().setup, box().cell, 1);
     const auto count = [&] {
         std::size_t in = 0;
-        for (std::size_t i = 0; i < replay.points().size(); ++i) in += replay.is_foam(i) ? 1 : 0;
+        for (std::size_t i = 0; i < replay.points().size(); ++i) in += replay.is_stock(i) ? 1 : 0;
         return in;
     };
     const std::size_t before = count();
     const InProcessStock whole(box().setup);
     const Drilling drilling = drill_holes({&hole, 1}, box().setup, box().mesh, box().cell, whole);
     ASSERT_EQ(drilling.operations.size(), 1U) << drilling.holes.front().by_hand;
-    replay.carve(drilling.operations.front());
-    EXPECT_EQ(replay.faults().link_in_foam, 0U) << replay.faults().first;
+    replay.mill(drilling.operations.front());
+    EXPECT_EQ(replay.faults().link_in_stock, 0U) << replay.faults().first;
     EXPECT_EQ(replay.faults().above_flute, 0U) << replay.faults().first;
     EXPECT_EQ(replay.faults().holder, 0U) << replay.faults().first;
     const double volume = 3.14159265 * 16 * (5 + 22 + 2.4034 / 3);
@@ -131,14 +131,14 @@ TEST(Drilling, HolesUnderThePieceOrBesideAWallAreForTheHand) {
     const auto first = static_cast<std::uint32_t>(table.points.size());
     table.points.insert(table.points.end(), plate.points.begin(), plate.points.end());
     for (const auto& t : plate.triangles) table.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    const std::unique_ptr<Carved> on = carved(table);
+    const std::unique_ptr<Milled> on = milled(table);
     EXPECT_EQ(drilled(*on, {1, {-20, 0, 20}, {0, 0, 1}, 4, 12, 2, {}}).holes.front().by_hand,
               "the piece stands over it");
     EXPECT_EQ(drilled(*on, {1, {-1, 0, 20}, {0, 0, 1}, 4, 12, 2, {}}).holes.front().by_hand,
               "the piece stands over it");
     EXPECT_EQ(drilled(*on, {1, {25, 0, 20}, {0, 0, 1}, 4, 12, 2, {}}).holes.front().by_hand, "");
-    const std::unique_ptr<Carved> pit = carved(shapes::box({-30, -20, 0}, {30, 20, 50}));
-    CarvingTool& drill = pit->cell.machine->tools[4];
+    const std::unique_ptr<Milled> pit = milled(shapes::box({-30, -20, 0}, {30, 20, 50}));
+    CuttingTool& drill = pit->cell.machine->tools[4];
     drill.stick_out = 25;  // the holder comes to 0.6 mm over the cap
     drill.flute_length = 25;
     const std::string why = drilled(*pit, {1, {5, -4, 50}, {0, 0, 1}, 8, 22, 6, {}}).holes.front().by_hand;
@@ -158,9 +158,9 @@ TEST(Drilling, HolesOfOneToolAndDirectionAreOneOperation) {
         for (const PathRun& run : operation.runs) numbers.back().push_back(run.hole);
     }
     EXPECT_EQ(numbers, (std::vector<std::vector<std::size_t>>{{1, 3}, {4}, {2}}));
-    ASSERT_EQ(drilling.directions.size(), 1U);
-    EXPECT_EQ(drilling.directions.front().out, leant);
-    EXPECT_EQ(drilling.operations[1].direction, 1U);
+    ASSERT_EQ(drilling.orientations.size(), 1U);
+    EXPECT_EQ(drilling.orientations.front().tool_axis, leant);
+    EXPECT_EQ(drilling.operations[1].orientation, 1U);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "base/parallel.h"
-#include "cam/stock/tip_surface.h"
+#include "cam/stock/cl_surface.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -24,9 +24,9 @@ using test_pieces::setup_of;
 constexpr double cell = 0.5;
 constexpr double near = 0.75;  // of a scallop height of 0.25 mm and a cell
 
-HeightMap closing_of(const Setup& setup, const TriangleMesh& mesh, std::size_t direction, double diameter) {
-    const CarvingTool tool = ball_tool(diameter);
-    return remaining_surface(tip_surface(target_map(setup, mesh, direction, {cell, -6, 0}), tool), tool);
+HeightField closing_of(const Setup& setup, const TriangleMesh& mesh, std::size_t orientation, double diameter) {
+    const CuttingTool tool = ball_tool(diameter);
+    return remaining_surface(cl_surface(piece_height_field(setup, mesh, orientation, {cell, -6, 0}), tool), tool);
 }
 
 std::size_t cells_of(const FinishingRegion& region) {
@@ -37,10 +37,10 @@ std::size_t cells_of(const FinishingRegion& region) {
 TEST(RemainingSurface, IsTheClosing) {
     const TriangleMesh mesh = bumpy(40, 20, 50, 2);
     const auto setup = setup_of(mesh, 8);
-    const HeightMap target = target_map(setup, mesh, 0, {1, -6, 0});
-    const CarvingTool tool = ball_tool(9);
-    const HeightMap tip = tip_surface(target, tool);
-    const HeightMap closing = remaining_surface(tip, tool);
+    const HeightField target = piece_height_field(setup, mesh, 0, {1, -6, 0});
+    const CuttingTool tool = ball_tool(9);
+    const HeightField tip = cl_surface(target, tool);
+    const HeightField closing = remaining_surface(tip, tool);
     for (std::size_t row = 0; row < tip.rows; ++row) {
         for (std::size_t column = 0; column < tip.columns; ++column) {
             float least = std::numeric_limits<float>::infinity();
@@ -58,17 +58,17 @@ TEST(RemainingSurface, IsTheClosing) {
     }
 }
 
-TEST(SurfaceLeft, ASecondTimeNothingIsLeftToDo) {
+TEST(RestMaterial, ASecondTimeNothingIsLeftToDo) {
     const TriangleMesh mesh = bumpy(40, 20, 20, 2);
     const auto setup = setup_of(mesh, 8);
-    const HeightMap closing = closing_of(setup, mesh, 0, 12);
-    SurfaceLeft surface(mesh, std::nullopt);
+    const HeightField closing = closing_of(setup, mesh, 0, 12);
+    RestMaterial surface(mesh, std::nullopt);
     EXPECT_EQ(surface.share_within(0), 0);
     EXPECT_GT(cells_of(surface.take(closing, near, 1)), 5000U);
     EXPECT_EQ(cells_of(surface.take(closing, near, 1)), 0U);
 }
 
-TEST(SurfaceLeft, AnotherDirectionFinishesWhatTheFirstDoesNotSee) {
+TEST(RestMaterial, AnotherDirectionFinishesWhatTheFirstDoesNotSee) {
     // A slab on a post: under its overhang towards x only a tilted tool comes.
     const TriangleMesh mesh =
         shapes::joined({shapes::box({0, 0, 0}, {60, 40, 10}), shapes::box({0, 0, 10.01}, {30, 40, 60})});
@@ -77,32 +77,32 @@ TEST(SurfaceLeft, AnotherDirectionFinishesWhatTheFirstDoesNotSee) {
         if (p.z > 59) p.x += 20;
     }
     const auto setup = setup_of(leaning, 30, 50);
-    SurfaceLeft surface(leaning, std::nullopt);
+    RestMaterial surface(leaning, std::nullopt);
     const FinishingRegion first = surface.take(closing_of(setup, leaning, 0, 12), near, 0);
     const double by_first = surface.share_within(0);
-    const HeightMap second_closing = closing_of(setup, leaning, 1, 12);
+    const HeightField second_closing = closing_of(setup, leaning, 1, 12);
     const FinishingRegion second = surface.take(second_closing, near, 0);
     EXPECT_GT(surface.share_within(0), by_first + 0.1) << "the wall under the overhang";
     EXPECT_GT(cells_of(second), 1000U);
     // The top is seen from both and finished by the first.
-    const Vec3 top = apply(second_closing.piece_in_map, {35, 20, 60});
+    const Vec3 top = apply(second_closing.piece_in_field, {35, 20, 60});
     const auto at =
         static_cast<std::size_t>(top.y / cell) * second_closing.columns + static_cast<std::size_t>(top.x / cell);
     EXPECT_EQ(second[at], not_finished);
     EXPECT_GT(cells_of(first), 4000U);
 }
 
-TEST(SurfaceLeft, WhatIsGivenBackIsLeftToTheNextTake) {
+TEST(RestMaterial, WhatIsGivenBackIsLeftToTheNextTake) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 20}, 4);
     const auto setup = setup_of(mesh, 8);
-    const HeightMap closing = closing_of(setup, mesh, 0, 12);
+    const HeightField closing = closing_of(setup, mesh, 0, 12);
     // Over one half of the top there is foam after all.
-    HeightMap more = closing;
+    HeightField more = closing;
     for (std::size_t i = 0; i < more.height.size(); ++i) {
         const double x = (static_cast<double>(i % more.columns) + 0.5) * cell;
         if (x > 0.5 * cell * static_cast<double>(more.columns)) more.height[i] += 30;
     }
-    SurfaceLeft surface(mesh, std::nullopt);
+    RestMaterial surface(mesh, std::nullopt);
     EXPECT_EQ(surface.takes(), 0U);
     const std::size_t all = cells_of(surface.take(closing, near, 0));
     const double share = surface.share_within(0);
@@ -117,7 +117,7 @@ TEST(SurfaceLeft, WhatIsGivenBackIsLeftToTheNextTake) {
     EXPECT_EQ(surface.share_within(0), share);
 }
 
-TEST(SurfaceLeft, AFinerToolGoesOnlyWhereMoreIsLeft) {
+TEST(RestMaterial, AFinerToolGoesOnlyWhereMoreIsLeft) {
     // A groove of radius 4 is finished by a ball of radius 3 and not by one of radius 6.
     TriangleMesh mesh = bumpy(60, 120, 0, 1);
     for (Vec3& p : mesh.points) {
@@ -126,9 +126,9 @@ TEST(SurfaceLeft, AFinerToolGoesOnlyWhereMoreIsLeft) {
         p.z = square > 0.5 ? 20 - std::sqrt(square) : 20;
     }
     const auto setup = setup_of(mesh, 10);
-    SurfaceLeft surface(mesh, std::nullopt);
+    RestMaterial surface(mesh, std::nullopt);
     surface.take(closing_of(setup, mesh, 0, 12), near, 0);
-    const HeightMap fine = closing_of(setup, mesh, 0, 6);
+    const HeightField fine = closing_of(setup, mesh, 0, 6);
     const FinishingRegion region = surface.take(fine, near, 0, 0.25);
     ASSERT_GT(cells_of(region), 200U);
     for (std::size_t i = 0; i < region.size(); ++i) {
@@ -136,31 +136,31 @@ TEST(SurfaceLeft, AFinerToolGoesOnlyWhereMoreIsLeft) {
         const std::size_t row = i / fine.columns;
         const double x = (static_cast<double>(i % fine.columns) + 0.5) * cell;
         const double y = (static_cast<double>(row) + 0.5) * cell;
-        const Vec3 p = apply_inverse(fine.piece_in_map, {x, y, static_cast<double>(region[i])});
+        const Vec3 p = apply_inverse(fine.piece_in_field, {x, y, static_cast<double>(region[i])});
         // In the groove, or at the outer walls, whose lowest millimetres a smaller ball reaches better.
         const bool is_at_wall = p.x < 2 || p.x > 58 || p.y < 2 || p.y > 58;
         EXPECT_TRUE(std::abs(p.x - 30) < 6 || is_at_wall) << p.x << ", " << p.y;
     }
 }
 
-TEST(SurfaceLeft, TheBaseAndWhatIsIgnoredAreLeftOut) {
+TEST(RestMaterial, TheBaseAndWhatIsIgnoredAreLeftOut) {
     TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 10}, 4);
     const auto setup = setup_of(mesh, 8);
-    const HeightMap closing = closing_of(setup, mesh, 0, 12);
+    const HeightField closing = closing_of(setup, mesh, 0, 12);
     mesh.ignored.assign(mesh.triangles.size(), 1);
-    SurfaceLeft none(mesh, std::nullopt);
+    RestMaterial none(mesh, std::nullopt);
     EXPECT_EQ(cells_of(none.take(closing, near, 1)), 0U);
     EXPECT_EQ(none.share_within(0), 1);
 }
 
-TEST(SurfaceLeft, DoesNotDependOnThreads) {
+TEST(RestMaterial, DoesNotDependOnThreads) {
     const TriangleMesh mesh = bumpy(40, 40, 40, 6);
     const auto setup = setup_of(mesh, 8);
-    const HeightMap closing = closing_of(setup, mesh, 0, 12);
-    const FinishingRegion region = SurfaceLeft(mesh, std::nullopt).take(closing, near, 1);
+    const HeightField closing = closing_of(setup, mesh, 0, 12);
+    const FinishingRegion region = RestMaterial(mesh, std::nullopt).take(closing, near, 1);
     for (const std::size_t threads : {1, 2, 4}) {
         const ThreadLimit limit(threads);
-        EXPECT_EQ(SurfaceLeft(mesh, std::nullopt).take(closing, near, 1), region);
+        EXPECT_EQ(RestMaterial(mesh, std::nullopt).take(closing, near, 1), region);
     }
 }
 
@@ -171,7 +171,7 @@ TEST(FinishingRegion, GrowsToTheLowestAround) {
         if (random() % 9 == 0) z = static_cast<float>(random() % 100);
     }
     for (const std::size_t by : {0U, 1U, 2U, 5U, 30U}) {
-        const FinishingRegion wide = grown(region, 37, 23, by);
+        const FinishingRegion wide = dilated(region, 37, 23, by);
         for (std::size_t row = 0; row < 23; ++row) {
             for (std::size_t column = 0; column < 37; ++column) {
                 float least = not_finished;
@@ -190,11 +190,11 @@ TEST(FinishingRegion, GrowsToTheLowestAround) {
 TEST(FinishingRegion, TheFloorBand) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 10});
     const auto setup = setup_of(mesh, 30);
-    const HeightMap target = target_map(setup, mesh, 0, {cell, 0, 0});
+    const HeightField target = piece_height_field(setup, mesh, 0, {cell, 0, 0});
     FinishingRegion region(target.height.size(), not_finished);
     add_floor_band(region, target, 12);
     const auto at = [&](double x, double y) {
-        const Vec3 p = apply(target.piece_in_map, {x, y, 0});
+        const Vec3 p = apply(target.piece_in_field, {x, y, 0});
         return region[static_cast<std::size_t>(p.y / cell) * target.columns + static_cast<std::size_t>(p.x / cell)];
     };
     EXPECT_EQ(at(10, 10), not_finished);

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "cam/stock/tip_surface.h"
+#include "cam/stock/cl_surface.h"
 #include "cam/toolpath/scallop.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
@@ -48,24 +48,24 @@ TEST(ScallopHeight, EqualsTheClosedForms) {
 
 // A piece finished from one direction of its setup.
 struct Finished {
-    HeightMap target;
-    HeightMap tip;
+    HeightField target;
+    HeightField tip;
     std::vector<Pass> passes;
-    HeightMap closing;
-    HeightMap left;
+    HeightField closing;
+    HeightField left;
     std::vector<SurfacePoint> points;
 
-    Finished(const TriangleMesh& mesh, std::size_t direction, double tilt_deg, const FinishingOptions& options = {},
+    Finished(const TriangleMesh& mesh, std::size_t orientation, double tilt_deg, const FinishingOptions& options = {},
              std::optional<double> near = std::nullopt) {
         const auto setup = setup_of(mesh, 14, tilt_deg);
-        const CarvingTool tool = ball_tool(12);
-        target = target_map(setup, mesh, direction, {cell, -6, 0});
-        tip = tip_surface(target, tool);
+        const CuttingTool tool = ball_tool(12);
+        target = piece_height_field(setup, mesh, orientation, {cell, -6, 0});
+        tip = cl_surface(target, tool);
         closing = remaining_surface(tip, tool);
-        SurfaceLeft surface(mesh, std::nullopt);
+        RestMaterial surface(mesh, std::nullopt);
         const double as_none = near.value_or(0.5 * options.scallop + 0.75 * cell);
         passes = finishing_passes(tip, tool, surface.take(closing, as_none, 2), options);
-        HeightMap stock = target;
+        HeightField stock = target;
         std::fill(stock.height.begin(), stock.height.end(), 1e4F);
         left = replayed(stock, passes, tool);
         points = surface_points(mesh, target, 1);
@@ -83,7 +83,7 @@ template <class Holds>
 Leftover leftover(const Finished& finished, const Holds& holds) {
     Leftover result;
     for (const SurfacePoint& p : finished.points) {
-        if (!holds(apply_inverse(finished.target.piece_in_map, p.at), p)) continue;
+        if (!holds(apply_inverse(finished.target.piece_in_field, p.at), p)) continue;
         const double foam = foam_over(finished.left, p, 10);
         result.most = std::max(result.most, foam);
         result.mean += foam;
@@ -93,8 +93,8 @@ Leftover leftover(const Finished& finished, const Holds& holds) {
     return result;
 }
 
-// On a slope the tip surface is higher by up to the cell's diagonal, square to the surface, and what is left is only
-// known at the middles of cells.
+// On a slope the CL surface is higher by up to the cell's diagonal, square to the surface, and what is left is only
+// known at the centres of cells.
 constexpr double cell_error = 2 * cell;
 
 // How far the middle of the tool is from the walls of a block that is turned under the map, along all levels.
@@ -110,12 +110,12 @@ struct FromWalls {
         TriangleMesh mesh = shapes::box({0, 0, 0}, size);
         for (Vec3& p : mesh.points) p = turned(p, turn);
         const auto setup = setup_of(mesh, 14);
-        const CarvingTool tool = ball_tool(12);
-        const TipOptions border{0, 0.075};
-        const HeightMap target = target_map(setup, mesh, 0, {wide_cell, -6, 0});
-        const HeightMap tip = tip_surface(target, tool, border);
-        const TipDilation over_target(target, tool, border);
-        SurfaceLeft surface(mesh, std::nullopt);
+        const CuttingTool tool = ball_tool(12);
+        const DilationOptions border{0, 0.075};
+        const HeightField target = piece_height_field(setup, mesh, 0, {wide_cell, -6, 0});
+        const HeightField tip = cl_surface(target, tool, border);
+        const ToolDilation over_target(target, tool, border);
+        RestMaterial surface(mesh, std::nullopt);
         FinishingOptions options;
         if (knows_tool) options.tool = &over_target;
         for (const Pass& pass :
@@ -123,7 +123,7 @@ struct FromWalls {
             for (std::size_t i = 1; i < pass.points.size(); ++i) {
                 for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
                     const Vec3 in_map = pass.points[i - 1].tip + share * (pass.points[i].tip - pass.points[i - 1].tip);
-                    const Vec3 p = turned(apply_inverse(target.piece_in_map, in_map), -turn);
+                    const Vec3 p = turned(apply_inverse(target.piece_in_field, in_map), -turn);
                     if (p.z < 2 || p.z > 30) continue;
                     const double from =
                         std::hypot(std::max({0.0, -p.x, p.x - size.x}), std::max({0.0, -p.y, p.y - size.y}));
@@ -156,10 +156,10 @@ TEST(Finishing, AFlatTopHasTheScallopsOfItsStep) {
     // Rows are the passes at one height over the top.
     std::vector<double> rows;
     for (const Pass& pass : finished.passes) {
-        Vec3 low = apply_inverse(finished.target.piece_in_map, pass.points.front().tip);
+        Vec3 low = apply_inverse(finished.target.piece_in_field, pass.points.front().tip);
         Vec3 high = low;
         for (const PassPoint& point : pass.points) {
-            const Vec3 p = apply_inverse(finished.target.piece_in_map, point.tip);
+            const Vec3 p = apply_inverse(finished.target.piece_in_field, point.tip);
             low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
@@ -171,8 +171,8 @@ TEST(Finishing, AFlatTopHasTheScallopsOfItsStep) {
     ASSERT_GE(rows.size(), 8U);
     double step = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) step = std::max(step, rows[i] - rows[i - 1]);
-    EXPECT_LE(step, finishing_step(ball_tool(12), {}) + 1e-9);
-    EXPECT_GE(step, 0.9 * finishing_step(ball_tool(12), {})) << "no closer than needed";
+    EXPECT_LE(step, finishing_stepover(ball_tool(12), {}) + 1e-9);
+    EXPECT_GE(step, 0.9 * finishing_stepover(ball_tool(12), {})) << "no closer than needed";
     const Leftover top = leftover(finished, [](Vec3 p, const SurfacePoint& s) {
         return s.normal.z > 0.99 && p.x > 8 && p.x < 52 && p.y > 8 && p.y < 42;
     });
@@ -194,14 +194,14 @@ TriangleMesh ramp(double slope_deg) {
 TEST(Finishing, RampsOfAnySlopeKeepTheScallopHeight) {
     const FinishingOptions options;
     for (const double slope : {10.0, 30.0, 45.0, 55.0, 70.0}) {
-        for (const std::size_t direction : {0U, 1U}) {
-            if (direction == 1 && slope > 40) continue;  // hardly seen from there
-            const Finished finished(ramp(slope), direction, 40);
+        for (const std::size_t orientation : {0U, 1U}) {
+            if (orientation == 1 && slope > 40) continue;  // hardly seen from there
+            const Finished finished(ramp(slope), orientation, 40);
             const Leftover over = leftover(finished, [&](Vec3 p, const SurfacePoint& s) {
                 return s.normal.z > 0.1 && p.x > 10 && p.x < 50 && p.y > 8 && p.y < 32 && p.z > 10.5;
             });
             ASSERT_GT(over.points, 500U) << slope;
-            EXPECT_LE(over.most, options.scallop + options.path_tolerance + cell_error) << slope << ", " << direction;
+            EXPECT_LE(over.most, options.scallop + options.path_tolerance + cell_error) << slope << ", " << orientation;
             EXPECT_GE(over.most, 0.3 * options.scallop) << slope << ": passes far closer than needed";
         }
     }
@@ -217,17 +217,17 @@ TEST(Finishing, HemisphereAndBowl) {
         const double square = 25 * 25 - (p.x - 30) * (p.x - 30) - (p.y - 30) * (p.y - 30);
         p.z = square > 49 ? 40 - std::sqrt(square) : 33;
     }
-    for (const std::size_t direction : {0U, 1U}) {
-        const Finished convex(ball, direction, 40);
-        const Vec3 out = convex.target.direction();
+    for (const std::size_t orientation : {0U, 1U}) {
+        const Finished convex(ball, orientation, 40);
+        const Vec3 tool_axis = convex.target.tool_axis();
         const Leftover over_ball = leftover(convex, [&](Vec3 p, const SurfacePoint&) {
-            return dot(p - Vec3{0, 0, 25}, out) > 5 && p.z > 8;
+            return dot(p - Vec3{0, 0, 25}, tool_axis) > 5 && p.z > 8;
         });
         ASSERT_GT(over_ball.points, 500U);
         EXPECT_LE(over_ball.most, options.scallop + options.path_tolerance + cell_error);
         EXPECT_LE(deepest_gouge(convex.passes, ball_tool(12), convex.points, convex.target), 0.01);
-        const Finished concave(bowl, direction, 20);
-        const Vec3 in_out = concave.target.direction();
+        const Finished concave(bowl, orientation, 20);
+        const Vec3 in_out = concave.target.tool_axis();
         const Leftover in_bowl = leftover(concave, [&](Vec3 p, const SurfacePoint&) {
             const Vec3 from_middle = p - Vec3{30, 30, 40};
             return norm(from_middle) < 25.5 && dot(from_middle, in_out) < -13;
@@ -264,15 +264,15 @@ TEST(Finishing, BumpyPiecesAreNeverGougedAndLittleIsLeft) {
 TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
     const TriangleMesh mesh = shapes::ball({0, 0, 80}, 25, 48);
     const auto setup = setup_of(shapes::box({-25, -25, 0}, {25, 25, 105}), 20);
-    const CarvingTool tool = ball_tool(12);
-    const HeightMap target = target_map(setup, mesh, 0, {cell, -6, 0});
-    const HeightMap tip = tip_surface(target, tool);
-    const FinishingRegion region = SurfaceLeft(mesh, std::nullopt).take(remaining_surface(tip, tool), 0.5, 3);
+    const CuttingTool tool = ball_tool(12);
+    const HeightField target = piece_height_field(setup, mesh, 0, {cell, -6, 0});
+    const HeightField tip = cl_surface(target, tool);
+    const FinishingRegion region = RestMaterial(mesh, std::nullopt).take(remaining_surface(tip, tool), 0.5, 3);
     FinishingRegion floor(region.size(), not_finished);
     add_floor_band(floor, target, 12);
     FinishingOptions options;
     options.floor = &floor;
-    const double floor_z = setup_to_map(setup, target, {0, 0, -6}).z;
+    const double floor_z = setup_to_field(setup, target, {0, 0, -6}).z;
     const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
     for (const Pass& pass : passes) {
         for (const PassPoint& point : pass.points) {
@@ -280,15 +280,15 @@ TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
             EXPECT_TRUE(over < 6 || over > 50) << over;
         }
     }
-    HeightMap stock = target;
+    HeightField stock = target;
     std::fill(stock.height.begin(), stock.height.end(), 1e4F);
-    const HeightMap left = replayed(stock, passes, tool);
+    const HeightField left = replayed(stock, passes, tool);
     const double base_z = floor_z + 6;
     std::size_t seen = 0;
     for (std::size_t row = 0; row < left.rows; ++row) {
         for (std::size_t column = 0; column < left.columns; ++column) {
             const Vec3 in_map{(static_cast<double>(column) + 0.5) * cell, (static_cast<double>(row) + 0.5) * cell, 0};
-            const Vec3 p = apply_inverse(target.piece_in_map, in_map);
+            const Vec3 p = apply_inverse(target.piece_in_field, in_map);
             const double from_wall = std::hypot(p.x, p.y) - 25;
             if (from_wall < 3 * cell || from_wall > 11) continue;
             ++seen;
@@ -299,8 +299,8 @@ TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
 }
 
 // Walls on both sides of a piece that lean out by a degree under an edge that descends by 60: from above a tool that
-// goes along the edge passes the strip under it at less than the tolerance, and carves it.
-TEST(Finishing, TheStripUnderAnOverhangingEdgeIsCarved) {
+// goes along the edge passes the strip under it at less than the tolerance, and mills it.
+TEST(Finishing, TheStripUnderAnOverhangingEdgeIsMilled) {
     constexpr double lean = 0.02;  // per mm of height
     const auto edge_z = [](double x) { return 70 - 1.7 * x; };
     TriangleMesh mesh = shapes::box({-30, -20, 0}, {30, 20, 100}, 40);
@@ -311,33 +311,33 @@ TEST(Finishing, TheStripUnderAnOverhangingEdgeIsCarved) {
     const FinishingOptions options;
     const Finished finished(mesh, 0, 0, options, options.scallop + cell);
     std::size_t passed = 0;
-    std::size_t carved = 0;
+    std::size_t milled = 0;
     for (const double side : {-1.0, 1.0}) {
-        const Vec3 normal = rotate(finished.target.piece_in_map, normalized(Vec3{0, side, -lean}));
+        const Vec3 normal = rotate(finished.target.piece_in_field, normalized(Vec3{0, side, -lean}));
         for (double x = -25; x < 25; x += 0.5) {
             for (double under = 0.25; under < 30; under += 0.25) {
                 const double z = edge_z(x) - under;
-                const Vec3 at = apply(finished.target.piece_in_map, {x, side * (20 + lean * z), z});
+                const Vec3 at = apply(finished.target.piece_in_field, {x, side * (20 + lean * z), z});
                 const SurfacePoint point{at, normal, 1};
                 if (foam_over(finished.closing, point, 1) > options.scallop + 0.75 * cell) continue;
                 ++passed;
-                if (foam_over(finished.left, point, 10) <= options.scallop + 0.5) ++carved;
+                if (foam_over(finished.left, point, 10) <= options.scallop + 0.5) ++milled;
             }
         }
     }
     EXPECT_GT(passed, 5000U);
-    EXPECT_GE(static_cast<double>(carved), 0.995 * static_cast<double>(passed));
+    EXPECT_GE(static_cast<double>(milled), 0.995 * static_cast<double>(passed));
 }
 
-TEST(Finishing, NoPassIsBelowTheTipSurface) {
+TEST(Finishing, NoPassIsBelowTheClSurface) {
     const TriangleMesh mesh = bumpy(50, 30, 70, 9);
     const Finished finished(mesh, 1, 30);
-    const CarvingTool tool = ball_tool(12);
+    const CuttingTool tool = ball_tool(12);
     for (const Pass& pass : finished.passes) {
         for (const PassPoint& point : pass.points) {
             const auto column = static_cast<std::size_t>(point.tip.x / cell);
             const auto row = static_cast<std::size_t>(point.tip.y / cell);
-            // Of the middles around the point the lowest.
+            // Of the centres around the point the lowest.
             float lowest = finished.tip.at(column, row);
             for (std::size_t r = row - 1; r <= row + 1; ++r) {
                 for (std::size_t c = column - 1; c <= column + 1; ++c) lowest = std::min(lowest, finished.tip.at(c, r));
@@ -368,16 +368,16 @@ TEST(Finishing, DoesNotDependOnThreads) {
 TEST(Finishing, AnEmptyRegionHasNoPasses) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {30, 30, 10});
     const auto setup = setup_of(mesh);
-    const HeightMap tip = tip_surface(target_map(setup, mesh, 0, {1, -6, 0}), ball_tool(12));
+    const HeightField tip = cl_surface(piece_height_field(setup, mesh, 0, {1, -6, 0}), ball_tool(12));
     EXPECT_TRUE(finishing_passes(tip, ball_tool(12), FinishingRegion(tip.height.size(), not_finished), {}).empty());
 }
 
 TEST(Finishing, ValuesThatMakeNoSenseAreNamed) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {30, 30, 10});
     const auto setup = setup_of(mesh);
-    const HeightMap tip = tip_surface(target_map(setup, mesh, 0, {1, -6, 0}), ball_tool(12));
+    const HeightField tip = cl_surface(piece_height_field(setup, mesh, 0, {1, -6, 0}), ball_tool(12));
     const FinishingRegion region(tip.height.size(), 0.0F);
-    const auto named = [&](const FinishingOptions& options, const CarvingTool& tool) -> std::string {
+    const auto named = [&](const FinishingOptions& options, const CuttingTool& tool) -> std::string {
         try {
             finishing_passes(tip, tool, region, options);
         } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-// Toolpaths of small pieces, carved once more by a plain replay; bad settings; the same for any number of threads.
+// Toolpaths of small pieces, milled once more by a plain replay; bad settings; the same for any number of threads.
 
 #include "cam/toolpath/make_toolpath.h"
 
@@ -34,7 +34,7 @@ ToolpathSettings coarse_settings() {
 }
 
 void expect_clean(const PlainReplay& replay, const std::string& name) {
-    EXPECT_EQ(replay.faults().link_in_foam, 0U) << name << ": " << replay.faults().first;
+    EXPECT_EQ(replay.faults().link_in_stock, 0U) << name << ": " << replay.faults().first;
     EXPECT_EQ(replay.faults().above_flute, 0U) << name << ": " << replay.faults().first;
     EXPECT_EQ(replay.faults().holder, 0U) << name << ": " << replay.faults().first;
     EXPECT_EQ(replay.faults().below_spoil, 0U) << name << ": " << replay.faults().first;
@@ -50,7 +50,7 @@ TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
     const Operation& first = path.operations.front();
     ASSERT_EQ(first.kind, OperationKind::roughing);
     PlainReplay replay(setup, cell, 2.5);
-    replay.carve(first);
+    replay.mill(first);
     expect_clean(replay, "box");
     std::size_t left = 0;
     for (std::size_t i = 0; i < replay.points().size(); ++i) {
@@ -59,33 +59,33 @@ TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
                           std::max(0.0, p.z - 50)};
         const bool is_piece = beside == Vec3{0, 0, 0} && p.z >= 0;
         if (is_piece || norm(beside) < first.allowance - 0.3) {
-            EXPECT_TRUE(replay.is_foam(i) || p.z < 0) << p.x << " " << p.y << " " << p.z;
+            EXPECT_TRUE(replay.is_stock(i) || p.z < 0) << p.x << " " << p.y << " " << p.z;
         }
         // On the floor, around the piece as far as a cell of the map may lie, and in the corner between both.
-        if (!replay.is_foam(i) || p.z < first.allowance + 0.1) continue;
+        if (!replay.is_stock(i) || p.z < first.allowance + 0.1) continue;
         // Above the piece a level may end nowhere nearer than the height of one.
         const bool is_far = std::max(beside.x, beside.y) > first.allowance + 3.5;
-        if (is_far || beside.z > first.allowance + first.step_down) ++left;
+        if (is_far || beside.z > first.allowance + first.stepdown) ++left;
     }
     EXPECT_EQ(left, 0U);
 }
 
 TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
     const Cell cell = ready_cell();
-    const auto carve = [&](const TriangleMesh& mesh, double tilt, const std::string& name) {
+    const auto mill = [&](const TriangleMesh& mesh, double tilt, const std::string& name) {
         const auto setup = setup_of(mesh, 8, tilt);
         PlainReplay replay(setup, cell, 3);
         for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
-            replay.carve(operation);
+            replay.mill(operation);
             expect_clean(replay, name + ", tool " + std::to_string(operation.tool) + ", direction " +
-                                     std::to_string(operation.direction));
+                                     std::to_string(operation.orientation));
         }
     };
-    carve(bumpy(50, 16, 40, 4), 45, "tilted bumps");
-    carve(shapes::ball({0, 0, 0}, 25, 24), 60, "ball");
+    mill(bumpy(50, 16, 40, 4), 45, "tilted bumps");
+    mill(shapes::ball({0, 0, 0}, 25, 24), 60, "ball");
 }
 
-// Of a ball carved along two directions: bodies without a crevice, where fine finishing has little to do.
+// Of a ball milled along two directions: bodies without a crevice, where fine finishing has little to do.
 TEST(MakeToolpath, EachBallEndedToolIsUsedAlongADirectionOrListedWithTheReason) {
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 24);
     const auto setup = setup_of(mesh, 8, 60);
@@ -93,19 +93,19 @@ TEST(MakeToolpath, EachBallEndedToolIsUsedAlongADirectionOrListedWithTheReason) 
     const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
     std::size_t listed = 0;
     for (const std::size_t tool : {0, 2, 3}) {  // the balls of 20, 12 and 6 mm
-        for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
+        for (std::size_t d = 0; d < setup.access.orientations.size(); ++d) {
             const bool is_used = std::any_of(
                 path.operations.begin(), path.operations.end(),
-                [&](const Operation& operation) { return operation.tool == tool && operation.direction == d; });
+                [&](const Operation& operation) { return operation.tool == tool && operation.orientation == d; });
             const auto count = std::count_if(path.unused.begin(), path.unused.end(), [&](const UnusedTool& unused) {
                 EXPECT_FALSE(unused.because.empty());
-                return unused.tool.value_or(tool) == tool && unused.direction.value_or(d) == d;
+                return unused.tool.value_or(tool) == tool && unused.orientation.value_or(d) == d;
             });
             EXPECT_EQ(count, is_used ? 0 : 1) << tool << " " << d;
             listed += static_cast<std::size_t>(count);
         }
     }
-    EXPECT_GE(listed, setup.reach.directions.size())
+    EXPECT_GE(listed, setup.access.orientations.size())
         << "the ball of 20 mm at least, in whose place the flat tool roughs";
     const auto of_large = std::find_if(path.unused.begin(), path.unused.end(),
                                        [](const UnusedTool& unused) { return unused.tool == std::size_t{0}; });
@@ -119,16 +119,16 @@ TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
     const Cell cell = ready_cell();
     PlainReplay replay(setup, cell, 2.3);
     const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
-    for (const Operation& operation : path.operations) replay.carve(operation);
+    for (const Operation& operation : path.operations) replay.mill(operation);
     for (std::size_t i = 0; i < replay.points().size(); ++i) {
         const Vec3 p = replay.points()[i];
         const double r = norm(p - Vec3{0, 0, 25});
         // The facets lie up to 0.12 mm inside of the ball; a gouge of 0.25 mm is too much.
         const bool is_piece = r < 25 - 0.37;
-        ASSERT_TRUE(!is_piece || replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+        ASSERT_TRUE(!is_piece || replay.is_stock(i)) << p.x << " " << p.y << " " << p.z;
         // Scallop height, path tolerance and two cells of the map.
         const bool is_away = r > 25 + 1.4 && p.z > 25;
-        ASSERT_FALSE(is_away && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+        ASSERT_FALSE(is_away && replay.is_stock(i)) << p.x << " " << p.y << " " << p.z;
     }
 }
 
@@ -155,27 +155,27 @@ TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
     const Cell cell = ready_cell();
     PlainReplay replay(setup, cell, 4);
     const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
-    for (const Operation& operation : path.operations) replay.carve(operation);
+    for (const Operation& operation : path.operations) replay.mill(operation);
     expect_clean(replay, "tower");
 }
 
-TEST(MakeToolpath, CarvesTheFootOfAWallThatTheHolderJustPasses) {
+TEST(MakeToolpath, MillsTheFootOfAWallThatTheHolderJustPasses) {
     // Above 160 mm the tower stands 13 mm farther in: the holder of the finishing tool (radius 16, 150 mm above the
-    // tip) passes it while the tool (radius 6) carves the foot, but not before the allowance on the tower is gone.
+    // tip) passes it while the tool (radius 6) mills the foot, but not before the allowance on the tower is gone.
     const TriangleMesh mesh =
         shapes::joined({shapes::box({-20, -20, 0}, {20, 20, 160}), shapes::box({-7, -7, 160}, {7, 7, 190})});
     const auto setup = setup_of(mesh, 5);
     const Cell cell = ready_cell();
     PlainReplay replay(setup, cell, 3.1);
     for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
-        if (operation.kind != OperationKind::fine_finishing) replay.carve(operation);
+        if (operation.kind != OperationKind::fine_finishing) replay.mill(operation);
     }
     expect_clean(replay, "tower");
     for (std::size_t i = 0; i < replay.points().size(); ++i) {
         const Vec3 p = replay.points()[i];
         const double beside = std::max(std::abs(p.x), std::abs(p.y)) - 20;
         const bool is_at_foot = beside > 0.8 && p.z > 18 && p.z < 150;
-        ASSERT_FALSE(is_at_foot && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+        ASSERT_FALSE(is_at_foot && replay.is_stock(i)) << p.x << " " << p.y << " " << p.z;
     }
 }
 
@@ -189,7 +189,7 @@ TEST(MakeToolpath, FinishesAWallDownToWhereTheHolderMeetsItsTop) {
     PlainReplay replay(setup, cell, 1.9);
     double on_air = 0;  // length of cuts that come nowhere near the piece
     for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
-        replay.carve(operation);
+        replay.mill(operation);
         if (operation.kind != OperationKind::finishing) continue;
         for (const PathRun& run : operation.runs) {
             Vec3 at = run.start;
@@ -206,7 +206,7 @@ TEST(MakeToolpath, FinishesAWallDownToWhereTheHolderMeetsItsTop) {
         const Vec3 p = replay.points()[i];
         const double beside = std::max(std::abs(p.x), std::abs(p.y)) - 8;
         const bool is_on_wall = beside > 0.8 && beside < 4.5 && p.z > 53.8 && p.z < 190;
-        ASSERT_FALSE(is_on_wall && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+        ASSERT_FALSE(is_on_wall && replay.is_stock(i)) << p.x << " " << p.y << " " << p.z;
     }
 }
 
@@ -219,7 +219,7 @@ struct WallAndPlate {
 
     explicit WallAndPlate(double tilt_deg) : setup(setup_of(mesh, 2, tilt_deg)) {
         cell.machine->spindle.body_radius = 0;
-        for (CarvingTool& tool : cell.machine->tools) tool.holder = {{120, 50}};
+        for (CuttingTool& tool : cell.machine->tools) tool.holder = {{120, 50}};
     }
 };
 
@@ -241,7 +241,7 @@ TEST(MakeToolpath, SurfaceThatStaysBlockedIsLeftToAnotherDirection) {
                 // On the plate, whose middle is at x = 80 in the mesh.
                 const bool is_in = std::abs(move.tip.z - 10) < 1 && move.tip.x > 15 && move.tip.x < 25;
                 if (move.kind == MoveKind::cut && is_in)
-                    (operation.direction == 0 ? from_above : tilted) += norm(move.tip - at);
+                    (operation.orientation == 0 ? from_above : tilted) += norm(move.tip - at);
                 at = move.tip;
             }
         }
@@ -259,8 +259,8 @@ TEST(MakeToolpath, PassesThatFoamBlocksAreTakenUpAgainWhenAnotherDirectionHasRem
     double again = 0;
     for (const Operation& operation : make_toolpath(piece.setup, piece.mesh, piece.cell, settings).operations) {
         if (operation.kind != OperationKind::finishing) continue;
-        has_tilted = has_tilted || operation.direction == 1;
-        if (operation.direction != 0 || !has_tilted) continue;
+        has_tilted = has_tilted || operation.orientation == 1;
+        if (operation.orientation != 0 || !has_tilted) continue;
         for (const PathRun& run : operation.runs) {
             Vec3 at = run.start;
             for (const PathMove& move : run.moves) {
@@ -280,8 +280,8 @@ TEST(MakeToolpath, RoughingStaysBesideTheBlockAsNarrowAsItIsAsked) {
         double most = 0;
         PlainReplay replay(setup, cell, 2.5);
         for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
-            replay.carve(operation);
-            if (operation.kind != OperationKind::roughing || operation.direction != 0) continue;
+            replay.mill(operation);
+            if (operation.kind != OperationKind::roughing || operation.orientation != 0) continue;
             for (const PathRun& run : operation.runs) {
                 for (const PathMove& move : run.moves) {
                     most = std::max({most, std::abs(move.tip.x) - 25, std::abs(move.tip.y) - 20});
@@ -306,9 +306,9 @@ TEST(MakeToolpath, ATiltedToolStaysBesideTheFoamThatItRoughs) {
     const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
     std::size_t cuts = 0;
     for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
-        if (operation.kind != OperationKind::roughing || operation.direction != 1) continue;
+        if (operation.kind != OperationKind::roughing || operation.orientation != 1) continue;
         // A level under the lowest foam, the radius beside it, and some cells for the map.
-        const double most = operation.step_down + 0.5 * cell.machine->tools[operation.tool].diameter + 12;
+        const double most = operation.stepdown + 0.5 * cell.machine->tools[operation.tool].diameter + 12;
         for (const PathRun& run : operation.runs) {
             for (const PathMove& move : run.moves) {
                 if (move.kind != MoveKind::cut) continue;
@@ -330,7 +330,7 @@ TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     ToolpathSettings settings = coarse_settings();
     settings.has_fine_finishing = false;
     PlainReplay replay(setup, cell, 2.1);
-    for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) replay.carve(operation);
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) replay.mill(operation);
     expect_clean(replay, "tall box");
 }
 
@@ -358,7 +358,7 @@ TEST(MakeToolpath, NamesTheSettingThatIsNotValid) {
         }
     };
     ToolpathSettings settings;
-    settings.step_down = 120;
+    settings.stepdown = 120;
     refused(settings, "step_down is deeper than the flute", cell);
     settings = {};
     settings.path_tolerance = 0;
@@ -376,7 +376,7 @@ TEST(MakeToolpath, NamesTheSettingThatIsNotValid) {
     settings.finishing_tool = 1;
     refused(settings, "not ball-ended", cell);
     Cell no_ball = cell;
-    std::erase_if(no_ball.machine->tools, [](const CarvingTool& t) { return t.shape == ToolShape::ball; });
+    std::erase_if(no_ball.machine->tools, [](const CuttingTool& t) { return t.shape == ToolShape::ball; });
     refused({}, "ball-ended", no_ball);
     refused({}, "no machine", ready_cell("foam-1.toml"));
 }

@@ -8,13 +8,13 @@
 #include <random>
 #include <set>
 
-#include "cam/stock/tip_surface.h"
+#include "cam/stock/cl_surface.h"
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing_limit.h"
-#include "cam/toolpath/links.h"
 #include "cam/toolpath/pass_order.h"
 #include "cam/toolpath/roughing_passes.h"
-#include "segment/raster/disc_max.h"
+#include "cam/toolpath/toolpath_linker.h"
+#include "segment/raster/disc_dilation.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 
 namespace qchopper {
@@ -27,7 +27,7 @@ using test_pieces::random_map;
 LevelRegion random_region(unsigned seed) {
     std::mt19937 random(seed);
     LevelRegion region{1.5, 60, 45, {}, {}};
-    const HeightMap noise = disc_max(random_map(60, 45, 1, seed), 2.3);
+    const HeightField noise = dilate_by_disc(random_map(60, 45, 1, seed), 2.3);
     for (const float height : noise.height) region.is_allowed.push_back(height < 47.5F ? 1 : 0);
     region.is_wanted.assign(region.is_allowed.size(), 1);
     for (std::size_t i = 0; i < 600; ++i) region.is_wanted[i] = 0;
@@ -116,22 +116,23 @@ TEST(PassOrder, TakesEachOnceAndAlwaysTheNearest) {
 struct Plate {
     Plate() : tip(random_map(200, 200, 1, 1)) {
         std::fill(tip.height.begin(), tip.height.end(), 10.0F);
-        space.tip_limit = &tip;
-        space.foam = tip;
-        std::fill(space.foam.height.begin(), space.foam.height.end(), 30.0F);
+        space.cl_limit = &tip;
+        space.stock = tip;
+        std::fill(space.stock.height.begin(), space.stock.height.end(), 30.0F);
         space.removed = tip;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
-        space.middle_foam = space.foam;
-        space.middle_removed = space.removed;
-        space.holder_limit = tip;
-        std::fill(space.holder_limit.height.begin(), space.holder_limit.height.end(), HeightMap::nothing);
+        space.centre_stock = space.stock;
+        space.centre_removed = space.removed;
+        space.holder_clearance_height = tip;
+        std::fill(space.holder_clearance_height.height.begin(), space.holder_clearance_height.height.end(),
+                  HeightField::nothing);
         space.retract = 60;
         operation.feed = 100;
         operation.approach_feed = 50;
         operation.link_feed = 300;
     }
-    HeightMap tip;
-    CarvingSpace space;
+    HeightField tip;
+    MillingSpace space;
     Operation operation;
 };
 
@@ -139,12 +140,12 @@ Pass line(Vec3 from, Vec3 to) {
     return {{{from, false}, {to, false}}, false};
 }
 
-TEST(RunBuilder, EntersOnARampAndComesDownToJustAboveTheFoam) {
+TEST(ToolpathLinker, EntersOnARampAndComesDownToJustAboveTheFoam) {
     Plate plate;
-    const CarvingTool tool = flat_tool(20);
+    const CuttingTool tool = flat_tool(20);
     LinkOptions options;
     options.has_ramps = true;
-    RunBuilder builder(plate.space, tool, plate.operation, options);
+    ToolpathLinker builder(plate.space, tool, plate.operation, options);
     builder.add({line({60, 100, 15}, {140, 100, 15})});
     const std::vector<PathRun> runs = builder.finish();
     ASSERT_EQ(runs.size(), 1U);
@@ -164,13 +165,13 @@ TEST(RunBuilder, EntersOnARampAndComesDownToJustAboveTheFoam) {
     }
 }
 
-TEST(RunBuilder, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
+TEST(ToolpathLinker, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
     Plate plate;
-    const CarvingTool tool = ball_tool(12);
+    const CuttingTool tool = ball_tool(12);
     const std::vector<Pass> passes{line({50, 60, 12}, {100, 60, 12}), line({100, 64, 12}, {50, 64, 12})};
     {
         Plate open;
-        RunBuilder builder(open.space, tool, open.operation, {});
+        ToolpathLinker builder(open.space, tool, open.operation, {});
         builder.add(passes);
         const std::vector<PathRun> runs = builder.finish();
         ASSERT_EQ(runs.size(), 1U);
@@ -178,9 +179,9 @@ TEST(RunBuilder, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
     }
     for (std::size_t c = 0; c < 200; ++c) {
         plate.tip.height[62 * 200 + c] = 45;
-        plate.space.foam.height[62 * 200 + c] = 45;
+        plate.space.stock.height[62 * 200 + c] = 45;
     }
-    RunBuilder builder(plate.space, tool, plate.operation, {});
+    ToolpathLinker builder(plate.space, tool, plate.operation, {});
     builder.add(passes);
     const std::vector<PathRun> runs = builder.finish();
     double highest = 0;
@@ -191,21 +192,21 @@ TEST(RunBuilder, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
 }
 
 // A wall at x = 100, 60 mm high.
-HeightMap wall_map() {
-    HeightMap target = random_map(200, 200, 1, 1);
+HeightField wall_map() {
+    HeightField target = random_map(200, 200, 1, 1);
     for (std::size_t i = 0; i < target.height.size(); ++i) target.height[i] = i % 200 < 100 ? 60.0F : 0.0F;
     return target;
 }
 
 // Retracts but for the last move of each run, of two levels along the wall.
 std::size_t retracts_along_wall(bool knows_tool) {
-    const CarvingTool tool = ball_tool(12);
-    const HeightMap target = wall_map();
-    const TipDilation dilation(target, tool);
+    const CuttingTool tool = ball_tool(12);
+    const HeightField target = wall_map();
+    const ToolDilation dilation(target, tool);
     Plate plate;
-    plate.tip = tip_surface(target, tool);
+    plate.tip = cl_surface(target, tool);
     if (knows_tool) plate.space.tool = &dilation;
-    RunBuilder builder(plate.space, tool, plate.operation, {});
+    ToolpathLinker builder(plate.space, tool, plate.operation, {});
     builder.add({line({106.02, 50, 20}, {106.02, 80, 20}), line({106.02, 80, 17}, {106.02, 50, 17})});
     std::size_t retracts = 0;
     for (const PathRun& run : builder.finish()) {
@@ -216,22 +217,22 @@ std::size_t retracts_along_wall(bool knows_tool) {
     return retracts;
 }
 
-TEST(RunBuilder, GoesDownAlongAWallWhereTheEdgeIsBetweenMiddlesOfCells) {
+TEST(ToolpathLinker, GoesDownAlongAWallWhereTheEdgeIsBetweenMiddlesOfCells) {
     EXPECT_EQ(retracts_along_wall(true), 0U);
     EXPECT_GT(retracts_along_wall(false), 0U) << "the map alone does not tell";
 }
 
 // Below its top the wall keeps the middle of the ball 6 mm away, near the top less: a straight line from a pass below
 // to one near the top is less than a cell long, seen from above, and cuts into the wall between its ends.
-TEST(RunBuilder, NoLinkUpAlongAWallCutsIntoIt) {
-    const CarvingTool tool = ball_tool(12);
-    const HeightMap target = wall_map();
-    const TipDilation dilation(target, tool);
+TEST(ToolpathLinker, NoLinkUpAlongAWallCutsIntoIt) {
+    const CuttingTool tool = ball_tool(12);
+    const HeightField target = wall_map();
+    const ToolDilation dilation(target, tool);
     for (const double low : {20.0, 40.0, 50.0}) {
         Plate plate;
-        plate.tip = tip_surface(target, tool);
+        plate.tip = cl_surface(target, tool);
         plate.space.tool = &dilation;
-        RunBuilder builder(plate.space, tool, plate.operation, {});
+        ToolpathLinker builder(plate.space, tool, plate.operation, {});
         builder.add({line({106.02, 50, low}, {106.02, 80, low}), line({105.3, 80, 57.5}, {105.3, 50, 57.5})});
         for (const PathRun& run : builder.finish()) {
             Vec3 at = run.start;
@@ -247,11 +248,11 @@ TEST(RunBuilder, NoLinkUpAlongAWallCutsIntoIt) {
     }
 }
 
-TEST(RunBuilder, NoRunIsTooLongForAChunk) {
+TEST(ToolpathLinker, NoRunIsTooLongForAChunk) {
     Plate plate;
     Pass pass;
     for (int i = 0; i < 3000; ++i) pass.points.push_back({{20 + 0.05 * i, 100.0 + (i % 2), 12}, false});
-    RunBuilder builder(plate.space, ball_tool(12), plate.operation, {});
+    ToolpathLinker builder(plate.space, ball_tool(12), plate.operation, {});
     builder.add({pass});
     const std::vector<PathRun> runs = builder.finish();
     EXPECT_GE(runs.size(), 3U);
@@ -261,9 +262,9 @@ TEST(RunBuilder, NoRunIsTooLongForAChunk) {
 TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
     Plate plate;
     for (std::size_t r = 0; r < 200; ++r) {
-        for (std::size_t c = 90; c < 200; ++c) plate.space.middle_foam.height[r * 200 + c] = 90;
+        for (std::size_t c = 90; c < 200; ++c) plate.space.centre_stock.height[r * 200 + c] = 90;
     }
-    const CarvingTool tool = ball_tool(12);  // with a flute of 60
+    const CuttingTool tool = ball_tool(12);  // with a flute of 60
     const Pass across = line({20, 50, 12}, {180, 50, 12});
     const ClippedPasses parts = clipped({across}, plate.space, tool);
     ASSERT_EQ(parts.free.size(), 1U);
@@ -272,7 +273,7 @@ TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
     ASSERT_EQ(parts.blocked.size(), 1U);
     EXPECT_EQ(parts.blocked[0].points.front().tip, parts.free[0].points.back().tip);
     EXPECT_EQ(parts.blocked[0].points.back().tip.x, 180);
-    for (float& height : plate.space.holder_limit.height) height = 13;
+    for (float& height : plate.space.holder_clearance_height.height) height = 13;
     EXPECT_TRUE(clipped({across}, plate.space, tool).free.empty());
     EXPECT_EQ(clipped({line({20, 50, 40}, {180, 50, 40})}, plate.space, tool).free.size(), 1U);
 }
@@ -280,9 +281,9 @@ TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
 TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> at(10, 190);
-    const CarvingTool tool = ball_tool(12);
+    const CuttingTool tool = ball_tool(12);
     Plate plate;
-    for (float& height : plate.space.holder_limit.height) height = random() % 9 == 0 ? 20.0F : 0.0F;
+    for (float& height : plate.space.holder_clearance_height.height) height = random() % 9 == 0 ? 20.0F : 0.0F;
     std::vector<Pass> passes;
     for (int i = 0; i < 40; ++i) {
         Pass pass;
@@ -297,16 +298,16 @@ TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
     EXPECT_NEAR(length_of(parts.free) + length_of(parts.blocked), length_of(passes), 1e-6 * length_of(passes));
     for (const Pass& part : parts.free) {
         for (const PassPoint& point : part.points) {
-            EXPECT_LE(least_height(plate.space.holder_limit, point.tip.x, point.tip.y), point.tip.z);
+            EXPECT_LE(min_height(plate.space.holder_clearance_height, point.tip.x, point.tip.y), point.tip.z);
         }
     }
 }
 
 TEST(Clipped, PartsOfADottedPassAreFreeAsAWholeWhenTheFoamIsGone) {
-    const CarvingTool tool = ball_tool(12);
+    const CuttingTool tool = ball_tool(12);
     Plate plate;
     // Blocked and free by turns of 1 mm from x = 60 on, for 40 mm, and one blocked cell beyond.
-    HeightMap& limit = plate.space.holder_limit;
+    HeightField& limit = plate.space.holder_clearance_height;
     for (std::size_t r = 0; r < limit.rows; ++r) {
         for (std::size_t c = 60; c < 100; c += 2) limit.height[r * limit.columns + c] = 50;
         limit.height[r * limit.columns + 150] = 50;
@@ -317,12 +318,12 @@ TEST(Clipped, PartsOfADottedPassAreFreeAsAWholeWhenTheFoamIsGone) {
     EXPECT_NEAR(length_of(parts.blocked[0]), 40, 1);
     for (const Pass& part : parts.blocked) EXPECT_GE(length_of(part), 2 - 1e-9);
     EXPECT_NEAR(length_of(parts.free) + length_of(parts.blocked), 160.2, 1e-9);
-    std::fill(limit.height.begin(), limit.height.end(), HeightMap::nothing);
+    std::fill(limit.height.begin(), limit.height.end(), HeightField::nothing);
     EXPECT_TRUE(clipped(parts.blocked, plate.space, tool).blocked.empty());
 }
 
 TEST(NearSurface, LeavesOutWhereTheToolIsHeldAway) {
-    HeightMap tip;
+    HeightField tip;
     tip.cell = 0.25;
     tip.columns = 400;
     tip.rows = 40;
@@ -337,8 +338,8 @@ TEST(NearSurface, LeavesOutWhereTheToolIsHeldAway) {
 }
 
 TEST(RaiseToLimit, NoLineBetweenNeighboursIsBelowTheLimit) {
-    const HeightMap limit = random_map(12, 9, 0.5, 4);
-    HeightMap tip;
+    const HeightField limit = random_map(12, 9, 0.5, 4);
+    HeightField tip;
     tip.cell = 0.2;
     tip.columns = 30;
     tip.rows = 22;
@@ -352,17 +353,17 @@ TEST(RaiseToLimit, NoLineBetweenNeighboursIsBelowTheLimit) {
             for (const Vec3 to : {at(c + 1, r), at(c, r + 1), at(c + 1, r + 1)}) {
                 for (const double t : {0.0, 0.2, 0.4, 0.499, 0.501, 0.7, 1.0}) {
                     const Vec3 p = at(c, r) + t * (to - at(c, r));
-                    ASSERT_GE(p.z + 1e-5, least_height(limit, p.x, p.y));
+                    ASSERT_GE(p.z + 1e-5, min_height(limit, p.x, p.y));
                 }
             }
         }
     }
 }
 
-TEST(HolderLimit, KeepsEveryStepAboveTheFoam) {
+TEST(HolderClearance, KeepsEveryStepAboveTheFoam) {
     Plate plate;
-    plate.space.foam.height[100 * 200 + 100] = 80;
-    const HeightMap limit = holder_limit_over(plate.space.foam, {40, {{30, 50}, {120, 100}}});
+    plate.space.stock.height[100 * 200 + 100] = 80;
+    const HeightField limit = holder_clearance_over(plate.space.stock, {40, {{30, 50}, {120, 100}}});
     EXPECT_GE(limit.at(100 + 14, 100), 80 - 40);
     EXPECT_GE(limit.at(100 + 59, 100), 80 - 90) << "the wide step is 50 mm higher";
     EXPECT_LT(limit.at(100 + 59, 100), 80 - 40);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cam/setup/holder_limit.h"
-#include "cam/stock/tip_surface.h"
+#include "cam/setup/holder_clearance.h"
+#include "cam/stock/cl_surface.h"
 
 namespace qchopper::test_pieces {
 namespace {
@@ -28,7 +28,7 @@ PlainReplay::PlainReplay(const Setup& setup, const Cell& cell, double step) : se
             }
         }
     }
-    is_foam_.assign(points_.size(), 1);
+    is_stock_.assign(points_.size(), 1);
 }
 
 void PlainReplay::note(std::size_t& count, const std::string& what) {
@@ -36,7 +36,7 @@ void PlainReplay::note(std::size_t& count, const std::string& what) {
     ++count;
 }
 
-void PlainReplay::meet(const CarvingTool& tool, std::size_t point, double above, double beside, MoveKind kind) {
+void PlainReplay::meet(const CuttingTool& tool, std::size_t point, double above, double beside, MoveKind kind) {
     const bool is_cut = kind == MoveKind::cut || kind == MoveKind::approach;
     const Vec3 p = points_[point];
     const std::string where = " at " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) +
@@ -44,9 +44,9 @@ void PlainReplay::meet(const CarvingTool& tool, std::size_t point, double above,
     const double in_shape = above - tool_profile(tool, beside);
     if (above <= tool.stick_out && in_shape >= 0) {
         const bool is_inside = beside < 0.5 * tool.diameter - touch && in_shape > touch;
-        if (is_inside && !is_cut) note(faults_.link_in_foam, "link in foam" + where);
+        if (is_inside && !is_cut) note(faults_.link_in_stock, "link in foam" + where);
         if (is_inside && is_cut && above > tool.flute_length) note(faults_.above_flute, "above the flute" + where);
-        if (is_cut) is_foam_[point] = 0;
+        if (is_cut) is_stock_[point] = 0;
         return;
     }
     double from = tool.stick_out;
@@ -59,8 +59,8 @@ void PlainReplay::meet(const CarvingTool& tool, std::size_t point, double above,
 }
 
 void PlainReplay::stand(const Operation& operation, Vec3 tip, MoveKind kind, bool with_holder) {
-    const CarvingTool& tool = cell_.machine->tools[operation.tool];
-    const Vec3 out = rotate(setup_.piece_in_setup, setup_.reach.directions[operation.direction].out);
+    const CuttingTool& tool = cell_.machine->tools[operation.tool];
+    const Vec3 tool_axis = rotate(setup_.piece_in_setup, setup_.access.orientations[operation.orientation].tool_axis);
     if (tip.z < -setup_.spoil + 2 - 1e-9) note(faults_.below_spoil, "below the spoil layer");
     double reach = 0.5 * tool.diameter;
     double length = tool.stick_out;
@@ -69,11 +69,11 @@ void PlainReplay::stand(const Operation& operation, Vec3 tip, MoveKind kind, boo
         reach = std::max(reach, 0.5 * steps[i].diameter);
         length += steps[i].length;
     }
-    const Vec3 end = tip + length * out;
+    const Vec3 end = tip + length * tool_axis;
     std::size_t first[3];
     std::size_t last[3];
     for (int i = 0; i < 3; ++i) {
-        const double more = reach * std::sqrt(std::max(0.0, 1 - out[i] * out[i])) + step_;
+        const double more = reach * std::sqrt(std::max(0.0, 1 - tool_axis[i] * tool_axis[i])) + step_;
         const double low = (std::min(tip[i], end[i]) - more - origin_[i]) / step_;
         const double high = (std::max(tip[i], end[i]) + more - origin_[i]) / step_;
         if (high < 0) return;
@@ -84,22 +84,22 @@ void PlainReplay::stand(const Operation& operation, Vec3 tip, MoveKind kind, boo
         for (std::size_t y = first[1]; y < last[1]; ++y) {
             for (std::size_t z = first[2]; z < last[2]; ++z) {
                 const std::size_t point = (x * count_[1] + y) * count_[2] + z;
-                if (is_foam_[point] == 0) continue;
+                if (is_stock_[point] == 0) continue;
                 const Vec3 from_tip = points_[point] - tip;
-                const double above = dot(out, from_tip);
+                const double above = dot(tool_axis, from_tip);
                 if (above < 0) continue;
-                const double beside = norm(from_tip - above * out);
+                const double beside = norm(from_tip - above * tool_axis);
                 if (beside <= reach) meet(tool, point, above, beside, kind);
             }
         }
     }
 }
 
-void PlainReplay::carve(const Operation& operation) {
-    const Vec3 out = rotate(setup_.piece_in_setup, setup_.reach.directions[operation.direction].out);
+void PlainReplay::mill(const Operation& operation) {
+    const Vec3 tool_axis = rotate(setup_.piece_in_setup, setup_.access.orientations[operation.orientation].tool_axis);
     for (const PathRun& run : operation.runs) {
         Vec3 at = run.start;
-        const auto is_at_retract = [&](Vec3 p) { return std::abs(dot(out, p) - operation.retract) < 1e-6; };
+        const auto is_at_retract = [&](Vec3 p) { return std::abs(dot(tool_axis, p) - operation.retract) < 1e-6; };
         if (!is_at_retract(run.start) || !is_at_retract(run.moves.back().tip)) {
             note(faults_.not_at_retract, "a run does not begin and end at the retract plane");
         }

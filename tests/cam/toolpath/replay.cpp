@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/stock/tip_surface.h"
+#include "cam/stock/cl_surface.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper::test_pieces {
@@ -29,8 +29,8 @@ void for_each_tip(const Pass& pass, double step, const Visit& visit) {
 
 }  // namespace
 
-HeightMap replayed(const HeightMap& from, const std::vector<Pass>& passes, const CarvingTool& tool) {
-    HeightMap map = from;
+HeightField replayed(const HeightField& from, const std::vector<Pass>& passes, const CuttingTool& tool) {
+    HeightField map = from;
     const double radius = 0.5 * tool.diameter;
     for (const Pass& pass : passes) {
         for_each_tip(pass, map.cell, [&](Vec3 tip) {
@@ -54,13 +54,13 @@ HeightMap replayed(const HeightMap& from, const std::vector<Pass>& passes, const
     return map;
 }
 
-std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, const HeightMap& map, double spacing) {
+std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, const HeightField& map, double spacing) {
     std::vector<SurfacePoint> points;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3 area = rotate(map.piece_in_map, area_vector(mesh, t));
+        const Vec3 area = rotate(map.piece_in_field, area_vector(mesh, t));
         if (area.z <= 1e-3 * norm(area)) continue;
         std::array<Vec3, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) p[k] = apply(map.piece_in_map, mesh.points[mesh.triangles[t][k]]);
+        for (std::size_t k = 0; k < 3; ++k) p[k] = apply(map.piece_in_field, mesh.points[mesh.triangles[t][k]]);
         const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[0]), norm(p[2] - p[1])});
         const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
         for (int i = 0; i < n; ++i) {
@@ -73,7 +73,7 @@ std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, const HeightM
     return points;
 }
 
-double foam_over(const HeightMap& remaining, const SurfacePoint& point, double most) {
+double foam_over(const HeightField& remaining, const SurfacePoint& point, double most) {
     for (double far = 0; far < most; far += 0.02) {
         const Vec3 p = point.at + far * point.normal;
         const auto c = static_cast<std::ptrdiff_t>(std::floor(p.x / remaining.cell));
@@ -87,8 +87,8 @@ double foam_over(const HeightMap& remaining, const SurfacePoint& point, double m
     return most;
 }
 
-double deepest_gouge(const std::vector<Pass>& passes, const CarvingTool& tool, const std::vector<SurfacePoint>& points,
-                     const HeightMap& frame) {
+double deepest_gouge(const std::vector<Pass>& passes, const CuttingTool& tool, const std::vector<SurfacePoint>& points,
+                     const HeightField& frame) {
     const double radius = 0.5 * tool.diameter;
     const auto columns = static_cast<std::size_t>(static_cast<double>(frame.columns) * frame.cell / radius) + 3;
     const auto rows = static_cast<std::size_t>(static_cast<double>(frame.rows) * frame.cell / radius) + 3;

@@ -12,8 +12,8 @@
 
 namespace qchopper::test_pieces {
 
-CarvingTool ball_tool(double diameter) {
-    CarvingTool tool;
+CuttingTool ball_tool(double diameter) {
+    CuttingTool tool;
     tool.shape = ToolShape::ball;
     tool.diameter = diameter;
     tool.corner_radius = 0.5 * diameter;
@@ -22,8 +22,8 @@ CarvingTool ball_tool(double diameter) {
     return tool;
 }
 
-CarvingTool flat_tool(double diameter) {
-    CarvingTool tool = ball_tool(diameter);
+CuttingTool flat_tool(double diameter) {
+    CuttingTool tool = ball_tool(diameter);
     tool.shape = ToolShape::flat;
     tool.corner_radius = 0;
     return tool;
@@ -36,9 +36,9 @@ Setup setup_of(const TriangleMesh& mesh, double margin, double tilt_deg) {
     setup.box = {box.min + setup.piece_in_setup.shift, box.max + setup.piece_in_setup.shift};
     setup.spoil = 15;
     setup.block.size = box.size() + Vec3{2 * margin, 2 * margin, margin + setup.spoil};
-    setup.reach.directions.push_back({{0, 0, 1}, 0, 0, 0});
+    setup.access.orientations.push_back({{0, 0, 1}, 0, 0, 0});
     const double tilt = tilt_deg * std::numbers::pi / 180;
-    if (tilt_deg > 0) setup.reach.directions.push_back({{std::sin(tilt), 0, std::cos(tilt)}, tilt_deg, 0, 0});
+    if (tilt_deg > 0) setup.access.orientations.push_back({{std::sin(tilt), 0, std::cos(tilt)}, tilt_deg, 0, 0});
     return setup;
 }
 
@@ -90,10 +90,10 @@ TriangleMesh bumpy(double size, std::size_t cells, double high, unsigned seed) {
     return mesh;
 }
 
-HeightMap random_map(std::size_t columns, std::size_t rows, double cell, unsigned seed) {
+HeightField random_map(std::size_t columns, std::size_t rows, double cell, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> height(0, 50);
-    HeightMap map;
+    HeightField map;
     map.cell = cell;
     map.columns = columns;
     map.rows = rows;

@@ -34,7 +34,7 @@ TEST(HandOffAdopt, AJobThatWasNotStartedIsCancelled) {
         EXPECT_EQ(cell.order(), "CLAIM QUERY CANCEL RELEASE ");
         EXPECT_EQ(cell.commands[0].epoch, 6U);
         EXPECT_EQ(cell.commands[0].seq, 51U);
-        EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+        EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
         EXPECT_TRUE(std::any_of(cell.events.begin(), cell.events.end(),
                                 [](const JournalEvent& event) { return event.kind == JournalKind::start_void; }));
     }
@@ -44,7 +44,7 @@ TEST(HandOffAdopt, ARunningJobIsFollowedToItsEnd) {
     ScriptedCell cell(adopting(true));
     hold(cell, JobState::running);
     end_the_job(cell);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_EQ(cell.count(CellCommand::start), 0);
     ASSERT_TRUE(cell.state.result.has_value());
     EXPECT_EQ(cell.state.result->result, JobResult::complete);
@@ -55,8 +55,8 @@ TEST(HandOffAdopt, WithoutAnAnswerItStaysUnknown) {
         ScriptedCell cell(adopting(may_have_arrived));
         cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
         cell.run();
-        EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << "the journal may have lost the row of START";
-        EXPECT_EQ(cell.events.back().verdict, StartVerdict::unknown);
+        EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << "the journal may have lost the row of START";
+        EXPECT_EQ(cell.events.back().start_outcome, StartOutcome::unknown);
     }
 }
 
@@ -110,9 +110,9 @@ TEST(HandOffAdopt, NotStartedIsSaidOnlyAfterTheFence) {
             is_asked = is_asked || (has_claimed && cell.input.result && cell.input.result->query_owner == 77);
         }
         EXPECT_FALSE(cell.state.is_started) << what;
-        EXPECT_EQ(cell.state.verdict, is_asked ? StartVerdict::not_started : StartVerdict::unknown)
+        EXPECT_EQ(cell.state.start_outcome, is_asked ? StartOutcome::not_started : StartOutcome::unknown)
             << what << ": " << cell.state.why;
-        EXPECT_EQ(cell.events.back().verdict, cell.state.verdict) << what;
+        EXPECT_EQ(cell.events.back().start_outcome, cell.state.start_outcome) << what;
         EXPECT_TRUE(!cell.cancelled || cell.now_s < 102.1) << what << cell.now_s;
     }
 }
@@ -148,7 +148,7 @@ TEST(HandOffAdopt, AJournalThatLostItsLastRowsLearnsThatTheJobHasRun) {
                 result.starts = 1;
             };
             cell.run();
-            EXPECT_EQ(cell.state.verdict, StartVerdict::started) << rows << " " << cell.state.why;
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::started) << rows << " " << cell.state.why;
             ASSERT_TRUE(cell.state.result.has_value()) << rows;
             EXPECT_EQ(cell.state.result->starts, 1U);
             ASSERT_FALSE(cell.commands.empty());
@@ -172,7 +172,7 @@ TEST(HandOffAdopt, TheAcknowledgementOfAnEarlierClaimIsNoFence) {
         return false;
     };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started) << cell.state.why;
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started) << cell.state.why;
     EXPECT_GT(cell.status.epoch_held, 6U) << "NOT STARTED without a CLAIM that makes the START before void";
     EXPECT_EQ(cell.count(CellCommand::claim), 1);
 }
@@ -184,7 +184,7 @@ TEST(HandOff, ANewJobStartsThoughTheJournalLostItsLastRows) {
     has_had(cell, CellCommand::release, 6);
     cell.status.ack_owner = 4711;
     end_the_job(cell);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started) << cell.state.why;
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started) << cell.state.why;
     EXPECT_EQ(cell.count(CellCommand::start), 1);
 }
 
@@ -210,7 +210,7 @@ TEST(Fault, F34_ATakeoverWhileStartIsUnderWayIsAnsweredByQuery) {
             cell.result.result = JobResult::complete;
         }
         cell.run();
-        EXPECT_EQ(cell.state.verdict, has_arrived ? StartVerdict::started : StartVerdict::not_started);
+        EXPECT_EQ(cell.state.start_outcome, has_arrived ? StartOutcome::started : StartOutcome::not_started);
         EXPECT_EQ(cell.count(CellCommand::start), has_arrived ? 1 : 0);
         EXPECT_EQ(cell.count(CellCommand::clear_result), 0);  // no lease
     }
@@ -244,7 +244,7 @@ TEST(HandOffRequest, UnholdIsPassedOnWhileTheJobRuns) {
         EXPECT_EQ(cell.state.step, HandOffStep::run);  // the job is followed as before
         cell.grant = nullptr;
         end_the_job(cell);
-        EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+        EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     }
 }
 

@@ -10,7 +10,7 @@ namespace {
 using namespace scripted;
 
 void expect_contradiction(const ScriptedCell& cell, const std::string& named) {
-    EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << cell.state.why;
     EXPECT_NE(cell.state.why.find("contradicts"), std::string::npos) << cell.state.why;
     EXPECT_NE(cell.state.why.find(named), std::string::npos) << cell.state.why;
     EXPECT_FALSE(cell.state.to_do.empty());
@@ -110,7 +110,7 @@ TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
         return AckResult::ok;
     };
     tokenless.run();
-    EXPECT_EQ(tokenless.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(tokenless.state.start_outcome, StartOutcome::not_started);
     EXPECT_NE(tokenless.state.why.find("token"), std::string::npos) << tokenless.state.why;
     EXPECT_LE(tokenless.count(CellCommand::prepare), 5);
     expect_leaves_with(tokenless, " CANCEL RELEASE ");
@@ -122,7 +122,7 @@ TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
         return writes(action, CellCommand::claim);
     };
     cutting.run();
-    EXPECT_EQ(cutting.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cutting.state.start_outcome, StartOutcome::not_started);
     EXPECT_LE(claims, 12);
 }
 

@@ -19,26 +19,26 @@ HandOffPlan plan_after(const SeenStore& store) {
     return plan;
 }
 
-void expect_store_lost(const ScriptedCell& cell, StartVerdict verdict) {
-    EXPECT_EQ(cell.state.verdict, verdict);
+void expect_store_lost(const ScriptedCell& cell, StartOutcome start_outcome) {
+    EXPECT_EQ(cell.state.start_outcome, start_outcome);
     EXPECT_TRUE(cell.state.store_is_lost);
     EXPECT_NE(cell.state.why.find("CELL_STORE_LOST"), std::string::npos) << cell.state.why;
     EXPECT_NE(cell.state.to_do.find("accept-store"), std::string::npos) << cell.state.to_do;
     EXPECT_TRUE(has(cell.events, JournalKind::store_lost));
     EXPECT_EQ(cell.events.back().kind, JournalKind::closed);
-    EXPECT_EQ(cell.events.back().verdict, verdict);
+    EXPECT_EQ(cell.events.back().start_outcome, start_outcome);
 }
 
 TEST(HandOffIdentity, AnotherStoreThanTheJournalHasSeenGetsNoCommand) {
     const SeenStore sames[] = {{{42}, 0x0101, 1, 0, 0}, {{42}, 0x0101, 1, 0, 0}};
     ScriptedCell same(plan_after(sames[0]));
     end_the_job(same);
-    EXPECT_EQ(same.state.verdict, StartVerdict::started);
+    EXPECT_EQ(same.state.start_outcome, StartOutcome::started);
     for (const SeenStore& before : {SeenStore{{41}, 0x0101, 1, 0, 0}, SeenStore{{42}, 0x0101, 2, 0, 0},
                                     SeenStore{{42}, 0x0101, 1, 1, 0}, SeenStore{{42}, 0x0101, 1, 0, 1}}) {
         ScriptedCell cell(plan_after(before));
         cell.run();
-        expect_store_lost(cell, StartVerdict::not_started);
+        expect_store_lost(cell, StartOutcome::not_started);
         EXPECT_TRUE(cell.written.empty());
     }
 }
@@ -48,7 +48,7 @@ TEST(HandOffIdentity, AStoreThatNobodyAcceptedGetsNoCommand) {
     plan.options.past.store_is_lost = true;
     ScriptedCell cell(plan);
     cell.run();
-    expect_store_lost(cell, StartVerdict::not_started);
+    expect_store_lost(cell, StartOutcome::not_started);
     EXPECT_TRUE(cell.written.empty());
 }
 
@@ -72,7 +72,7 @@ TEST(Fault, F24_ACellThatComesBackWithAnEmptyStoreIsUnknownOnceStartMayHaveArriv
         }
         cell.written.clear();
         cell.run();
-        expect_store_lost(cell, last == CellCommand::start ? StartVerdict::unknown : StartVerdict::not_started);
+        expect_store_lost(cell, last == CellCommand::start ? StartOutcome::unknown : StartOutcome::not_started);
         EXPECT_TRUE(cell.written.empty()) << name(last);
     }
 }
@@ -94,7 +94,7 @@ TEST(Fault, F24_AnOlderMemoryThatAnotherPcRaisedAgainIsALostOne) {
         put_back_and_raise_again(cell);
     });
     cell.run();
-    expect_store_lost(cell, StartVerdict::unknown);
+    expect_store_lost(cell, StartOutcome::unknown);
     EXPECT_NE(cell.state.why.find("CLAIM"), std::string::npos) << cell.state.why;
     EXPECT_EQ(cell.count(CellCommand::start), 0);
 }
@@ -108,11 +108,11 @@ TEST(Fault, F24_TheNextDispatcherFindsTheOlderMemoryByTheNumberOfTheLastClaim) {
         cell.grants[number] = 5;
         if (number == 66) {
             end_the_job(cell);
-            EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
             continue;
         }
         cell.run();
-        expect_store_lost(cell, StartVerdict::not_started);
+        expect_store_lost(cell, StartOutcome::not_started);
         EXPECT_EQ(cell.order(), "CLAIM QUERY ") << "nothing is stored or started";
         EXPECT_FALSE(has(cell.events, JournalKind::granted)) << "the old number still is to be asked for";
     }
@@ -152,7 +152,7 @@ TEST(Fault, F24_ACellThatNoLongerKnowsAJobThatHasStartedHasLostItsMemory) {
             return true;
         };
         cell.run();
-        expect_store_lost(cell, StartVerdict::started);
+        expect_store_lost(cell, StartOutcome::started);
     }
 }
 
@@ -169,11 +169,11 @@ TEST(Fault, F24_ARestartAroundStartIsUnknownIfTheCellCannotCheckItsStore) {
         });
         if (checks_store == 1) {
             end_the_job(cell);
-            EXPECT_EQ(cell.state.verdict, StartVerdict::started) << cell.state.why;
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::started) << cell.state.why;
             continue;
         }
         cell.run();
-        EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
+        EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << cell.state.why;
         EXPECT_NE(cell.state.to_do.find("accept-store"), std::string::npos) << cell.state.to_do;
         EXPECT_EQ(cell.count(CellCommand::start), 0);
     }
@@ -185,7 +185,7 @@ TEST(Fault, F24_ACellEmptiedWhileTheJobRunsIsStillStarted) {
     cell.status.starts_total = 0;
     cell.written.clear();
     cell.run();
-    expect_store_lost(cell, StartVerdict::started);
+    expect_store_lost(cell, StartOutcome::started);
     EXPECT_TRUE(cell.written.empty());
 }
 
@@ -193,7 +193,7 @@ TEST(HandOffIdentity, ACellThatRefusesItsIdentityGetsNoCommand) {
     ScriptedCell cell;
     cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::read_identity ? 2 : 0; };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_TRUE(cell.written.empty());
     EXPECT_NE(cell.state.why.find("IDENTITY"), std::string::npos) << cell.state.why;
 }
@@ -228,22 +228,22 @@ ResultRecord carved() {
     return before;
 }
 
-TEST(HandOffIdentity, AFileThatWasCarvedBeforeIsCarvedOnlyWithAgain) {
+TEST(HandOffIdentity, AFileThatWasMilledBeforeIsMilledOnlyWithAgain) {
     ScriptedCell refused;
-    refused.carved_before = carved();
+    refused.milled_before = carved();
     refused.run();
-    EXPECT_EQ(refused.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(refused.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(refused.order(), "CLAIM QUERY QUERY_FILE RELEASE ");
     EXPECT_NE(refused.state.why.find(to_text(other_job)), std::string::npos) << refused.state.why;
     EXPECT_NE(refused.state.to_do.find("--again"), std::string::npos);
-    EXPECT_TRUE(refused.state.carved_before.has_value());
+    EXPECT_TRUE(refused.state.milled_before.has_value());
 
     HandOffPlan plan = a_plan();
     plan.options.again = true;
     ScriptedCell again(plan);
-    again.carved_before = carved();
+    again.milled_before = carved();
     end_the_job(again);
-    EXPECT_EQ(again.state.verdict, StartVerdict::started);
+    EXPECT_EQ(again.state.start_outcome, StartOutcome::started);
     EXPECT_EQ(again.count(CellCommand::prepare), 1);
 }
 

@@ -18,7 +18,7 @@ TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
               "QUERY CLEAR_RESULT Reset "
               "RELEASE ");
     EXPECT_GT(cell.commands[7].epoch, cell.commands[6].epoch);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_EQ(cell.commands[13].token, 1002U);  // a new token
 }
 
@@ -27,7 +27,7 @@ TEST(Fault, F07_AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
     lose_first_start(cell, [&](const Command& start) { cell.execute(start); });
     end_the_job(cell);
     EXPECT_EQ(cell.count(CellCommand::start), 1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
 }
 
 TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
@@ -40,7 +40,8 @@ TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
         };
         const double began = cell.now_s;
         cell.run();
-        EXPECT_EQ(cell.state.verdict, last == CellCommand::start ? StartVerdict::unknown : StartVerdict::not_started);
+        EXPECT_EQ(cell.state.start_outcome,
+                  last == CellCommand::start ? StartOutcome::unknown : StartOutcome::not_started);
         EXPECT_EQ(cell.count(CellCommand::start), 0);
         EXPECT_LT(cell.now_s - began, 40);
     }
@@ -51,7 +52,7 @@ TEST(HandOff, ALinkLostForGoodWhileTheJobRunsIsStillStarted) {
     cell.run_to(HandOffStep::run);
     cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_NE(cell.state.why.find("runs on by itself"), std::string::npos);
 }
 
@@ -61,7 +62,7 @@ TEST(HandOff, ABusyCellIsAskedAgainTenTimesAndNoMore) {
     cell.refuse = [](const HandOffAction& action) { return writes(action, CellCommand::store) ? 6 : 0; };
     while (cell.step()) asked += writes(cell.action, CellCommand::store) ? 1 : 0;
     EXPECT_EQ(asked, 11);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_NE(cell.state.why.find("exception 6"), std::string::npos) << cell.state.why;
 }
 
@@ -71,7 +72,7 @@ TEST(HandOff, AnyOtherExceptionIsReportedAtOnce) {
     cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::write_ticket ? 2 : 0; };
     while (cell.step()) asked += cell.action.kind == Kind::write_ticket ? 1 : 0;
     EXPECT_EQ(asked, 1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
 }
 
 TEST(HandOff, AFrozenCellGetsNoCommand) {
@@ -84,7 +85,7 @@ TEST(HandOff, AFrozenCellGetsNoCommand) {
     const auto before = cell.commands.size();
     cell.run();
     EXPECT_EQ(cell.commands.size(), before);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_NE(cell.state.why.find("CELL FROZEN"), std::string::npos) << cell.state.why;
 }
 
@@ -94,7 +95,7 @@ TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
             ScriptedCell cell;
             cell.refuse = [&](const HandOffAction& action) { return writes(action, at) ? code : 0; };
             cell.run();
-            EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
             EXPECT_NE(cell.state.why.find("exception " + std::to_string(code)), std::string::npos) << cell.state.why;
             expect_leaves_with(cell, at == CellCommand::query ? "CLAIM RELEASE " : " CANCEL RELEASE ");
         }
@@ -107,7 +108,8 @@ TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
         const double began_s = cell.now_s;
         cell.run();
         EXPECT_LT(cell.now_s - began_s, 1);
-        EXPECT_EQ(cell.state.verdict, step == HandOffStep::run ? StartVerdict::started : StartVerdict::not_started);
+        EXPECT_EQ(cell.state.start_outcome,
+                  step == HandOffStep::run ? StartOutcome::started : StartOutcome::not_started);
     }
 }
 
@@ -223,7 +225,7 @@ TEST(Fault, F24_AnEmptiedCellIsFoundWhicheverCallLosesTheConnectionAfterStart) {
         cell.run_to(HandOffStep::prepare);
         cell.run_to(HandOffStep::finished);
         if (start_was_open) {
-            EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << lost_at;
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << lost_at;
         }
     }
 }

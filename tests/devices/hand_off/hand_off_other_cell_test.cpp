@@ -28,7 +28,7 @@ TEST(HandOffOtherCell, ThatAnswersBeforeStartGetsNoStart) {
                 return AckResult::ok;
             };
             cell.run();
-            EXPECT_EQ(cell.state.verdict, StartVerdict::not_started) << name(last);
+            EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started) << name(last);
             EXPECT_EQ(cell.commands.back().command, last) << "nothing more is sent: " << cell.order();
             EXPECT_NE(cell.state.why.find("another cell answers now"), std::string::npos) << cell.state.why;
             EXPECT_NE(cell.state.why.find(change.word), std::string::npos) << cell.state.why;
@@ -42,7 +42,7 @@ TEST(HandOffOtherCell, ThatAnswersAfterStartLeavesTheVerdictToTheFirst) {
         ScriptedCell lost;  // START may have arrived
         lose_first_start(lost, [&](const Command&) { change.apply(lost.status); });
         lost.run();
-        EXPECT_EQ(lost.state.verdict, StartVerdict::unknown) << lost.state.why;
+        EXPECT_EQ(lost.state.start_outcome, StartOutcome::unknown) << lost.state.why;
         EXPECT_EQ(lost.count(CellCommand::claim), 1) << "the other cell is not claimed";
         ScriptedCell running;
         running.run_to(HandOffStep::run);
@@ -50,7 +50,7 @@ TEST(HandOffOtherCell, ThatAnswersAfterStartLeavesTheVerdictToTheFirst) {
         }
         change.apply(running.status);
         running.run();
-        EXPECT_EQ(running.state.verdict, StartVerdict::started) << running.state.why;
+        EXPECT_EQ(running.state.start_outcome, StartOutcome::started) << running.state.why;
         EXPECT_EQ(running.commands.back().command, CellCommand::start);
     }
 }
@@ -90,7 +90,7 @@ TEST(HandOffBadIdentity, AfterALostStartIsUnknown) {
     while (step_with_damage(cell) && cell.now_s < 10'000) {
     }
     EXPECT_EQ(cell.action.kind, Kind::finish);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::unknown);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown);
     EXPECT_FALSE(cell.state.fault.has_value()) << "an outcome, not an error";
 }
 

@@ -19,7 +19,7 @@ void expect_not_started(CellCommand at, AckResult with, bool rehearses = false) 
     cell.plan.options.rehearse = rehearses;
     cell.grant = [&](const Command& c) { return c.command == at ? with : AckResult::ok; };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(cell.state.refusal, with);
     EXPECT_FALSE(cell.state.fault);
     EXPECT_NE(cell.state.why.find(name(with)), std::string::npos) << cell.state.why;
@@ -39,7 +39,7 @@ TEST(Fault, F33_AnAcknowledgementOfAnotherPcWithTheSameNumberIsNoStart) {
         return AckResult::none;
     };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started) << cell.state.why;
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started) << cell.state.why;
     EXPECT_EQ(cell.status.starts_total, 0U);
     EXPECT_FALSE(cell.state.is_started);
 }
@@ -57,7 +57,7 @@ TEST(Fault, F37_ACellThatSaysOkOfAnotherFileIsNotBelieved) {
         if (cell.status.file_sha256 == cell.plan.ticket.file_sha256) cell.status.file_sha256.bytes[31] ^= 1;
     }
     EXPECT_EQ(cell.count(CellCommand::verify), 1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(cell.state.refusal, AckResult::hash_mismatch);
     EXPECT_EQ(cell.count(CellCommand::prepare), 0);
     expect_leaves_with(cell, "CANCEL RELEASE ");
@@ -91,7 +91,7 @@ TEST(Fault, F58_AStopOnRequestWhileTheJobRunsIsSentAndConfirmed) {
     cell.cancelled = cell.input.cancelled = true;
     cell.run();
     EXPECT_EQ(cell.count(CellCommand::stop), 1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_TRUE(cell.state.is_cancelled);
     EXPECT_EQ(cell.status.starts_total, 1U);
     EXPECT_NE(cell.state.why.find("stopped"), std::string::npos) << cell.state.why;
@@ -106,7 +106,7 @@ TEST(Fault, F58_WithoutAnAnswerToStopTheReportDoesNotSayThatItStands) {
     const double asked_s = cell.now_s;
     cell.run();
     EXPECT_LE(cell.now_s - asked_s, cell.plan.options.timings.answer_s + 0.1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_NE(cell.state.why.find("continues by itself"), std::string::npos) << cell.state.why;
     EXPECT_FALSE(cell.state.to_do.empty());
 }
@@ -117,7 +117,7 @@ TEST(Fault, F58_AStopOnRequestAfterTheStartLeavesTheJobRunningAndSaysSo) {
     cell.cancelled = cell.input.cancelled = true;
     cell.run();
     EXPECT_EQ(cell.count(CellCommand::stop), 0);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_NE(cell.state.why.find("runs on by itself"), std::string::npos) << cell.state.why;
     EXPECT_EQ(cell.commands.back().command, CellCommand::release);
 }
@@ -137,7 +137,7 @@ TEST(Fault, F59_AfterAnEmergencyStopNothingIsSentThatMovesTheMachine) {
     };
     cell.run();
     EXPECT_EQ(cell.order(), "QUERY CLEAR_RESULT RELEASE ") << "no Clear, no Reset, no Start";
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_NE(cell.state.why.find("aborted"), std::string::npos) << cell.state.why;
     EXPECT_FALSE(cell.state.to_do.empty());
     EXPECT_EQ(cell.status.starts_total, 1U);
@@ -172,7 +172,7 @@ TEST(Fault, F63_AnAcknowledgementThatWasOvertakenIsAskedForByTheSameFrame) {
     EXPECT_EQ(cell.status.starts_total, 1U);
     EXPECT_TRUE(cell.state.is_started);
     end_the_job(cell);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(Fault, F58_AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStart
         const bool was_stored = cell.count(CellCommand::store) > 0 || cell.action.kind == Kind::write_command;
         cell.run();
         EXPECT_EQ(cell.count(CellCommand::start), 0) << at;
-        EXPECT_EQ(cell.state.verdict, StartVerdict::not_started) << at;
+        EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started) << at;
         EXPECT_TRUE(cell.state.is_cancelled);
         if (cell.count(CellCommand::store) > 0) {
             EXPECT_TRUE(was_stored);
@@ -66,9 +66,9 @@ TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
         const double asked_s = cell.now_s;
         cell.run();
         EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
-        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
-                                      : before.start_sent ? StartVerdict::unknown
-                                                          : StartVerdict::not_started)
+        EXPECT_EQ(cell.state.start_outcome, before.is_started   ? StartOutcome::started
+                                            : before.start_sent ? StartOutcome::unknown
+                                                                : StartOutcome::not_started)
             << turns << cell.state.why;
         EXPECT_TRUE(cell.state.is_cancelled);
         EXPECT_FALSE(cell.state.why.empty());
@@ -79,8 +79,8 @@ TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
         if (before.claim_sent && !(before.start_sent && !before.is_started)) {
             EXPECT_TRUE(was_written(CellCommand::release)) << turns << " " << name(before.step);
         }
-        started += cell.state.verdict == StartVerdict::started ? 1 : 0;
-        not_started += cell.state.verdict == StartVerdict::not_started ? 1 : 0;
+        started += cell.state.start_outcome == StartOutcome::started ? 1 : 0;
+        not_started += cell.state.start_outcome == StartOutcome::not_started ? 1 : 0;
         if (before.step >= HandOffStep::release) break;
     }
     EXPECT_GT(started, 3);
@@ -101,9 +101,9 @@ TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
         const double asked_s = cell.now_s;
         cell.run();
         EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
-        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
-                                      : before.start_sent ? StartVerdict::unknown
-                                                          : StartVerdict::not_started);
+        EXPECT_EQ(cell.state.start_outcome, before.is_started   ? StartOutcome::started
+                                            : before.start_sent ? StartOutcome::unknown
+                                                                : StartOutcome::not_started);
         if (before.step >= HandOffStep::release) break;
     }
 }
@@ -135,7 +135,7 @@ TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
     stop_on_request(cell);
     back_at_s = cell.now_s + 0.7;
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(cell.count(CellCommand::cancel), 1) << cell.order();
     EXPECT_EQ(cell.commands.back().command, CellCommand::release);
     EXPECT_EQ(cell.state.why.find("did not confirm"), std::string::npos) << cell.state.why;
@@ -157,9 +157,9 @@ TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementTheAnswerOfTheCellIsRe
         cell.run();
         EXPECT_LE(cell.now_s - asked_s, 2.05);
         EXPECT_EQ(cell.state.is_cancelled, answer != AckResult::safety_open);  // that end is the cell's own
-        EXPECT_EQ(cell.state.verdict, answer == AckResult::ok     ? StartVerdict::started
-                                      : answer == AckResult::none ? StartVerdict::unknown
-                                                                  : StartVerdict::not_started)
+        EXPECT_EQ(cell.state.start_outcome, answer == AckResult::ok     ? StartOutcome::started
+                                            : answer == AckResult::none ? StartOutcome::unknown
+                                                                        : StartOutcome::not_started)
             << cell.state.why;
         EXPECT_EQ(cell.count(CellCommand::cancel), answer == AckResult::safety_open ? 1 : 0);
     }
@@ -179,7 +179,7 @@ TEST(HandOff, AStartRefusedByACellThatRestartedMeanwhileMayHaveBeenExecutedBefor
     stop_on_request(cell);
     cell.run();
     EXPECT_EQ(asked, 2);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << cell.state.why;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST(HandOff, TheCommandsComeInTheOrderOfTheProtocol) {
     end_the_job(cell);
     EXPECT_EQ(cell.order(),
               "CLAIM QUERY QUERY_FILE Reset STORE VERIFY PREPARE Start QUERY CLEAR_RESULT Reset RELEASE ");
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     ASSERT_TRUE(cell.state.result.has_value());
     EXPECT_EQ(cell.state.result->starts, 1U);
     for (const Command& command : cell.commands) EXPECT_EQ(command.owner, 77U);
@@ -49,7 +49,7 @@ TEST(HandOff, TheJournalTellsTheWholeStory) {
     EXPECT_EQ(kinds,
               "IDENTITY CLAIM COMMAND GRANTED COMMAND COMMAND COMMAND COMMAND COMMAND START_INTENT STARTED PROGRESS "
               "COMMAND RESULT COMMAND COMMAND COMMAND IDENTITY CLOSED ");
-    EXPECT_EQ(cell.events.back().verdict, StartVerdict::started);
+    EXPECT_EQ(cell.events.back().start_outcome, StartOutcome::started);
     EXPECT_EQ(cell.events[cell.events.size() - 2].store.starts_total, 1U);
 }
 
@@ -59,7 +59,7 @@ TEST(HandOff, AnOwnRefusalOfStartIsNotStarted) {
         return c.command == CellCommand::start ? AckResult::safety_open : AckResult::ok;
     };
     cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(cell.state.refusal, AckResult::safety_open);
     EXPECT_EQ(cell.order(), "CLAIM QUERY QUERY_FILE Reset STORE VERIFY PREPARE Start CANCEL RELEASE ");
 }
@@ -77,7 +77,7 @@ TEST(HandOff, TheAcknowledgementOfSomebodyElseIsNotTakenForOurs) {
     };
     end_the_job(cell);
     EXPECT_EQ(cell.count(CellCommand::store), 2);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
 }
 
 TEST(HandOff, ACommandThatIsNotAcknowledgedIsSentAgainAsTheVerySameFrame) {
@@ -117,7 +117,7 @@ TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
     ScriptedCell before;
     before.change_result = [](ResultRecord& result) { result.job_id = other_job; };
     before.run();
-    EXPECT_EQ(before.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(before.state.start_outcome, StartOutcome::not_started);
     EXPECT_NE(before.state.why.find(to_text(other_job)), std::string::npos) << before.state.why;
     EXPECT_LE(before.count(CellCommand::query), 12);
     expect_leaves_with(before, "QUERY RELEASE ");
@@ -126,7 +126,7 @@ TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
     after.run_to(HandOffStep::run);
     after.change_result = before.change_result;
     end_the_job(after);
-    EXPECT_EQ(after.state.verdict, StartVerdict::started);  // STATUS has shown that
+    EXPECT_EQ(after.state.start_outcome, StartOutcome::started);  // STATUS has shown that
     EXPECT_FALSE(after.state.result.has_value());
     EXPECT_LE(after.count(CellCommand::query), 14);
 }
@@ -138,7 +138,7 @@ TEST(HandOff, AQueryOvertakenByThatOfAnotherClientIsAskedAgain) {
         if (++overtaken % 4 != 0) result.query_owner = 4711;
     };
     end_the_job(cell);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
     EXPECT_EQ(cell.count(CellCommand::query), 8);
     EXPECT_EQ(cell.count(CellCommand::start), 1);
 }
@@ -157,7 +157,7 @@ TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
     };
     end_the_job(cell);
     EXPECT_EQ(cell.count(CellCommand::cancel), 1);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
 
     ScriptedCell busy;
     busy.status.job_id = other_job;

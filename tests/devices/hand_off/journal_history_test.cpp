@@ -53,12 +53,12 @@ TEST(JournalHistory, AJobIsOpenUntilItsEndIsCertain) {
     EXPECT_TRUE(rows.first().is_stored);
     rows.add(Is::start_intent);
     EXPECT_TRUE(rows.first().start_may_have_arrived);
-    rows.add(Is::closed).verdict = StartVerdict::unknown;
+    rows.add(Is::closed).start_outcome = StartOutcome::unknown;
     EXPECT_TRUE(rows.first().is_open());
     rows.add(Is::resumed);
     rows.add(Is::started);
     EXPECT_TRUE(rows.first().is_started);
-    rows.add(Is::closed).verdict = StartVerdict::started;
+    rows.add(Is::closed).start_outcome = StartOutcome::started;
     EXPECT_TRUE(rows.first().is_open());  // it runs on
     JournalEvent& end = rows.add(Is::result);
     end.job_state = JobState::ended;
@@ -73,7 +73,7 @@ TEST(JournalHistory, AJobThatWasNotStartedIsClosed) {
     rows.add(Is::start_intent);
     rows.add(Is::start_void);
     EXPECT_FALSE(rows.first().start_may_have_arrived);
-    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    rows.add(Is::closed).start_outcome = StartOutcome::not_started;
     EXPECT_FALSE(rows.first().is_open());
 }
 
@@ -89,7 +89,7 @@ TEST(JournalHistory, TheOwnerGoesOnWhileItsLeaseMayLive) {
     EXPECT_EQ(rows.history().secret, 6U);
     rows.command(CellCommand::release, 3);
     EXPECT_TRUE(rows.history().lease_may_live);  // RELEASE may not have arrived
-    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    rows.add(Is::closed).start_outcome = StartOutcome::not_started;
     EXPECT_FALSE(rows.history().lease_may_live);
     EXPECT_EQ(past_of(rows.history(), nullptr).owner, 0U);
     EXPECT_EQ(past_of(rows.history(), nullptr, 7).owner, 0U) << "somebody else holds the cell";
@@ -140,9 +140,9 @@ TEST(JournalHistory, JobsThatWereOpenWhenAStoreWasAcceptedMayHaveStartedForGood)
         Rows rows;
         rows.add(Is::created).file_sha256.bytes.fill(1);
         if (kinds > 0) rows.add(Is::start_intent);
-        if (kinds > 1) rows.add(Is::closed).verdict = StartVerdict::unknown;
+        if (kinds > 1) rows.add(Is::closed).start_outcome = StartOutcome::unknown;
         rows.add(Is::created, b).file_sha256.bytes.fill(2);
-        rows.add(Is::closed, b).verdict = StartVerdict::not_started;
+        rows.add(Is::closed, b).start_outcome = StartOutcome::not_started;
         rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
         const JournalHistory history = rows.history();
         EXPECT_TRUE(history.jobs[0].may_have_started()) << kinds;
@@ -157,9 +157,9 @@ TEST(JournalHistory, AStartThatWasRefusedHasNotStarted) {
     EXPECT_FALSE(rows.first().may_have_started());
     rows.add(Is::start_intent);
     EXPECT_TRUE(rows.first().may_have_started());
-    rows.add(Is::closed).verdict = StartVerdict::unknown;
+    rows.add(Is::closed).start_outcome = StartOutcome::unknown;
     EXPECT_TRUE(rows.first().may_have_started());
-    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    rows.add(Is::closed).start_outcome = StartOutcome::not_started;
     EXPECT_FALSE(rows.first().may_have_started());
 }
 

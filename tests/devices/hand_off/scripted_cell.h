@@ -157,14 +157,14 @@ struct ScriptedCell {
                 ++status.starts_total;
                 break;
             case CellCommand::query_file:
-                result = carved_before.value_or(ResultRecord{});
+                result = milled_before.value_or(ResultRecord{});
                 result.query_owner = command.owner;
                 result.query_seq = command.seq;
-                status.ack_detail = carved_before ? 1 : 0;
-                if (!carved_before) acknowledge(command, AckResult::unknown_job);
+                status.ack_detail = milled_before ? 1 : 0;
+                if (!milled_before) acknowledge(command, AckResult::unknown_job);
                 break;
             case CellCommand::query:
-                if (carved_before || result.job_id != command.job_id) result = ResultRecord{};
+                if (milled_before || result.job_id != command.job_id) result = ResultRecord{};
                 result.job_id = command.job_id;
                 result.query_owner = command.owner;
                 result.query_seq = command.seq;
@@ -208,7 +208,7 @@ struct ScriptedCell {
     Uuid store_id{42};
     std::uint16_t checks_store = 1;
     std::map<std::uint32_t, std::uint32_t> grants;  // of CLAIMs: their numbers, their epochs
-    std::optional<ResultRecord> carved_before;      // the answer to QUERY_FILE
+    std::optional<ResultRecord> milled_before;      // the answer to QUERY_FILE
     CellCommand request = CellCommand::none;
     std::string request_answer;
     std::function<AckResult(const Command&)> grant;    // the result; none: not acknowledged

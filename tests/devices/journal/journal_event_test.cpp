@@ -26,7 +26,7 @@ JournalEvent full_event() {
     event.job_state = JobState::ended;
     event.job_result = JobResult::complete;
     event.starts = 1;
-    event.verdict = StartVerdict::unknown;
+    event.start_outcome = StartOutcome::unknown;
     event.store = {{9, 9}, 0x0101, 11, 12, 13};
     return event;
 }

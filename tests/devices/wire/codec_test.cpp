@@ -190,9 +190,9 @@ TEST(Codec, ATicketIsTheseRegisters) {
 }
 
 TEST(Codec, AHeartbeatAndAChunkAreTheseRegisters) {
-    const Heartbeat beat{5, 0x89ABCDEF, 17};
-    EXPECT_EQ(encode(beat), (Registers{0, 5, 0x89AB, 0xCDEF, 17}));
-    EXPECT_EQ(decode_heartbeat(encode(beat)).value, beat);
+    const Heartbeat heartbeat{5, 0x89ABCDEF, 17};
+    EXPECT_EQ(encode(heartbeat), (Registers{0, 5, 0x89AB, 0xCDEF, 17}));
+    EXPECT_EQ(decode_heartbeat(encode(heartbeat)).value, heartbeat);
     Chunk chunk{232, {1, 2, 3}, 0};
     chunk.crc = chunk_crc(5, 0x89ABCDEF, job, chunk.offset, chunk.data);
     EXPECT_EQ(chunk.crc, 0xF7CD8CEBU);

@@ -206,7 +206,7 @@ TEST(Accessibility, DistancesAreThoseToTheFirstSurface) {
                 const SurfaceSample& sample = scan.samples.sample[piece.accessibility.sample[row]];
                 for (std::size_t k = row % 7; k < scan.directions.size(); k += 7) {
                     const float distance = piece.accessibility.distances(row)[k];
-                    if (dot(sample.normal, scan.directions[k]) < least_facing) {
+                    if (dot(sample.normal, scan.directions[k]) < min_facing) {
                         EXPECT_EQ(distance, 0) << name;
                         continue;
                     }

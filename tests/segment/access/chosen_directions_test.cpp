@@ -138,9 +138,9 @@ void expect_consistent(const Case& c, const DirectionOptions& options, const Cho
     ASSERT_EQ(result.samples.size(), c.piece.accessibility.sample.size()) << what;
     for (std::size_t row = 0; row < result.samples.size(); ++row) {
         const auto is_parallel = [&](Vec3 d) { return std::abs(dot(c.piece.sample(row).normal, d)) < 0.05; };
-        const SampleReach expected = before.is_covered[row]                                   ? SampleReach::reached
-                                     : std::any_of(chosen.begin(), chosen.end(), is_parallel) ? SampleReach::steep
-                                                                                              : SampleReach::hidden;
+        const SampleAccess expected = before.is_covered[row]                                   ? SampleAccess::reached
+                                      : std::any_of(chosen.begin(), chosen.end(), is_parallel) ? SampleAccess::steep
+                                                                                               : SampleAccess::hidden;
         EXPECT_EQ(result.samples[row], expected) << what;
     }
     EXPECT_LE(result.by_all.total_mm2(90), result.by_chosen.total_mm2(90) + 1e-9 * area) << what;

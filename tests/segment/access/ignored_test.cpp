@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
 #include "segment/access/inside.h"
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 #include "segment/access/sampled_piece.h"
 #include "segment/cut/cut_piece.h"
 #include "tests/cam/setup/solids.h"
@@ -90,9 +90,9 @@ TEST(Ignored, IsHandedOnByCuts) {
             const std::uint32_t parent = made->parent[i][t];
             EXPECT_EQ(is_ignored(mesh, t), parent != no_parent && is_ignored(*whole.mesh, parent));
         }
-        const PieceReach reach = piece_reach(made->pieces[i], bases_of(made->pieces[i]), {});
-        const double caps = reach.samples->caps.front().area_mm2;
-        EXPECT_NEAR(reach.samples->judged().area_mm2() - caps, counted_area_of(mesh), 1e-6);
+        const PieceAccess access = piece_access(made->pieces[i], bases_of(made->pieces[i]), {});
+        const double caps = access.samples->caps.front().area_mm2;
+        EXPECT_NEAR(access.samples->judged().area_mm2() - caps, counted_area_of(mesh), 1e-6);
     }
     EXPECT_NEAR(counted, counted_area_of(ball), 1e-6 * counted);
 }
@@ -107,10 +107,10 @@ TEST(Ignored, APieceMayHaveNoSurfaceLeft) {
     EXPECT_EQ(counted_area_of(*top.mesh), 0);
     EXPECT_TRUE(top.samples->accessibility.sample.empty());
     EXPECT_EQ(unreachable_mm2(top, 60), 0);
-    const CutReach reach = cut_reach(top, {{1, 0, 0}, 2.1}, 60);
-    EXPECT_GE(reach.unreachable_mm2, 0);
-    EXPECT_TRUE(std::isfinite(reach.unreachable_mm2));
-    const PieceReach own = piece_reach(top, bases_of(top), {});
+    const CutAccess access = cut_access(top, {{1, 0, 0}, 2.1}, 60);
+    EXPECT_GE(access.unreachable_mm2, 0);
+    EXPECT_TRUE(std::isfinite(access.unreachable_mm2));
+    const PieceAccess own = piece_access(top, bases_of(top), {});
     EXPECT_EQ(own.best().share(), 0);
     EXPECT_EQ(own.best().unreachable_mm2, 0);
 }

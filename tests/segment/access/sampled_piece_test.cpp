@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-#include "segment/access/piece_reach.h"
+#include "segment/access/piece_access.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/sample/sample.h"
@@ -69,12 +69,12 @@ TEST(SampledPiece, KeptSamplesAndOwnOnesSayTheSame) {
         for (const Piece& piece : segmentation.pieces) {
             const std::size_t rows = piece.samples->accessibility.sample.size();
             if (rows < 1'000) continue;
-            PieceReachOptions options;
+            PieceAccessOptions options;
             options.samples = rows;
             const std::vector<PieceBase> bases = bases_of(piece);
-            const PieceReach own = piece_reach(piece, bases, options);
+            const PieceAccess own = piece_access(piece, bases, options);
             options.takes_kept = true;
-            const PieceReach kept = piece_reach(piece, bases, options);
+            const PieceAccess kept = piece_access(piece, bases, options);
             EXPECT_EQ(kept.samples, piece.samples);
             EXPECT_NE(own.samples, piece.samples);
             for (std::size_t b = 0; b < bases.size(); ++b) {
@@ -82,7 +82,7 @@ TEST(SampledPiece, KeptSamplesAndOwnOnesSayTheSame) {
                 EXPECT_NEAR(kept.bases[b].share(), own.bases[b].share(), 0.04) << piece.name;
             }
             options.samples = rows + 1;
-            EXPECT_NE(piece_reach(piece, bases, options).samples, piece.samples) << "too few: own ones are taken";
+            EXPECT_NE(piece_access(piece, bases, options).samples, piece.samples) << "too few: own ones are taken";
         }
     }
 }

@@ -104,7 +104,7 @@ class CutPieceReference {
     // In single precision; where that is not `expected`, all triangles are tried in double precision.
     bool is_open(std::size_t row, Vec3 direction, bool expected) const {
         const SurfaceSample& sample = scan_.samples.sample[piece_.accessibility.sample[row]];
-        if (dot(sample.normal, direction) < least_facing) return false;
+        if (dot(sample.normal, direction) < min_facing) return false;
         const Vec3 origin = origin_of(scan_, sample);
         const bool is_open = !tree_.meets(origin, direction);
         return is_open == expected ? expected : std::isinf(brute_force_distance(*piece_.piece.mesh, origin, direction));

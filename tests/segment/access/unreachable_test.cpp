@@ -290,10 +290,10 @@ TEST(Unreachable, ASmallCapIsNoBase) {
     EXPECT_EQ(bases_of(judged_tip)[0].up, (Vec3{0, 0, 1}));
     EXPECT_TRUE(bases_of(judged_stump).empty());
 
-    const LeastUnreachable of_tip = least_unreachable(judged_tip, world, 60);
+    const MinUnreachable of_tip = min_unreachable(judged_tip, world, 60);
     EXPECT_EQ(of_tip.base.cut, 1);
     EXPECT_EQ(of_tip.share(), 0);
-    const LeastUnreachable of_stump = least_unreachable(judged_stump, world, 60);
+    const MinUnreachable of_stump = min_unreachable(judged_stump, world, 60);
     EXPECT_FALSE(of_stump.base.cut.has_value());
     EXPECT_NEAR(of_stump.total_mm2, 4, 1e-6);  // upside down, its own cap faces the table
     for (const Vec3& axis : world) {

@@ -37,7 +37,7 @@ struct Drawing {
 // The caps of all loops, and the number of their regions.
 std::pair<CapTriangles, std::size_t> caps_of(const Drawing& d) {
     const std::vector<Loop> loops = capped(d.loops);
-    const std::vector<CapRegion> regions = nest(d.points, loops);
+    const std::vector<CapRegion> regions = nest_polygons(d.points, loops);
     return {triangulate_regions(d.points, loops, regions), regions.size()};
 }
 

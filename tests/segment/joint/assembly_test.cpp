@@ -28,7 +28,7 @@ TriangleMesh extruded(const std::vector<Point2>& outline, double depth) {
     Loop loop;
     for (std::uint32_t i = 0; i < count; ++i) loop.push_back(i);
     const std::vector<Loop> loops{loop};
-    for (const auto& t : triangulate_regions(outline, loops, nest(outline, loops)).triangles) {
+    for (const auto& t : triangulate_regions(outline, loops, nest_polygons(outline, loops)).triangles) {
         mesh.triangles.push_back({t[0], t[1], t[2]});
         mesh.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
     }

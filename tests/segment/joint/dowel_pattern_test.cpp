@@ -37,7 +37,7 @@ TEST(DowelPattern, WhatIsNotAlikeFitsInNoRotation) {
     const DowelPattern a{{0, {0, 0}}, {1, {60, 0}}};
     for (double length = 40; length < 80; length += 0.25) {
         const DowelPattern b{{0, {3, 0}}, {1, {3, length}}};
-        const double error = least_error_of_rotations(a, b);
+        const double error = min_error_of_rotations(a, b);
         EXPECT_NEAR(error, std::abs(length - 60) / 2, 0.05);
         if (!are_alike(a, b, tolerance)) {
             EXPECT_GT(error, tolerance - 0.05);

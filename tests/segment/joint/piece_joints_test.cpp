@@ -57,7 +57,7 @@ TEST(PieceJoints, HolesOfTenThousandRandomSectionsAreClear) {
     const std::vector<shapes::Named> all = shapes::all_closed();
     JointSettings settings;
     settings.sites = 60;
-    settings.least_mm2 = 50;
+    settings.min_mm2 = 50;
     int sections = 0;
     int holes = 0;
     for (int round = 0; sections < 10'000; ++round) {
@@ -106,11 +106,11 @@ TEST(PieceJoints, NoPatternFitsTurnedAndNoTwoFitEachOther) {
         ++sound;
         ASSERT_GE(pattern.size(), 2u);
         // the dowels at the least distance turn by 15 degrees before one of them is off by more than the tolerance
-        EXPECT_GT(least_error(pattern, pattern, {.from_deg = 16}), tolerance) << joint_name(joints[j], s.pieces);
+        EXPECT_GT(min_error(pattern, pattern, {.from_deg = 16}), tolerance) << joint_name(joints[j], s.pieces);
         for (std::size_t k = 0; k < j; ++k) {
             if (joints[k].fault != JointFault::none) continue;
             const DowelPattern other = pattern_of(joints[k], settings.sizes);
-            EXPECT_GT(least_error_of_rotations(pattern, other), tolerance)
+            EXPECT_GT(min_error_of_rotations(pattern, other), tolerance)
                 << joint_name(joints[j], s.pieces) << " and " << joint_name(joints[k], s.pieces);
         }
     }

@@ -19,7 +19,7 @@ struct TurnOptions {
 
 // The least over rotations of half degrees and all pairings of dowels of equal size, of the largest distance between
 // paired dowels after the shift that brings their middles together; infinite where the sizes differ.
-inline double least_error(const DowelPattern& a, const DowelPattern& b, const TurnOptions& options) {
+inline double min_error(const DowelPattern& a, const DowelPattern& b, const TurnOptions& options) {
     double best = INFINITY;
     if (a.size() != b.size()) return best;
     const auto middle = [](const DowelPattern& pattern) {
@@ -50,8 +50,8 @@ inline double least_error(const DowelPattern& a, const DowelPattern& b, const Tu
     return best;
 }
 
-inline double least_error_of_rotations(const DowelPattern& a, const DowelPattern& b) {
-    return std::min(least_error(a, b, {}), least_error(a, b, {.is_mirrored = true}));
+inline double min_error_of_rotations(const DowelPattern& a, const DowelPattern& b) {
+    return std::min(min_error(a, b, {}), min_error(a, b, {.is_mirrored = true}));
 }
 
 }  // namespace qchopper

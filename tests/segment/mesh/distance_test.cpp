@@ -33,7 +33,7 @@ TEST(Distance, IsZeroWhenNothingChanged) {
 TEST(Distance, OfShapesThatWereMovedIsBounded) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         const Deviation moved = deviation(shape.mesh, shapes::moved(shape.mesh, {0, 0, 0.125}));
-        for (const Farthest& one_way : {moved.from_scan, moved.from_result}) {
+        for (const OneSidedDistance& one_way : {moved.from_scan, moved.from_result}) {
             EXPECT_LE(one_way.mm, 0.125 + 1e-9) << shape.name;
             EXPECT_GE(one_way.at_most, one_way.mm) << shape.name;
             EXPECT_LE(one_way.at_most, 1.01 * one_way.mm + 1e-4 + 1e-12) << shape.name;
@@ -61,7 +61,7 @@ TEST(Distance, CoversTheInteriorOfLargeFaces) {
         lid.points.push_back({r * std::cos(angle), r * std::sin(angle), h});
     }
     lid.triangles = {{0, 1, 2}};
-    const Farthest found = farthest(lid, all_of(lid), ball);
+    const OneSidedDistance found = one_sided_distance(lid, all_of(lid), ball);
     EXPECT_NEAR(found.mm, radius - h, 0.1);
     EXPECT_NEAR(norm(found.at - Vec3{0, 0, h}), 0, 1.5);
     EXPECT_GE(found.at_most, found.mm);
@@ -86,9 +86,9 @@ TEST(Distance, BetweenTheSameSurfaceInOtherTrianglesIsFoundWithFewPoints) {
     const TriangleMesh fine = shapes::rotated(shapes::box({0, 0, 0}, {60, 50, 40}, 5), {1, 2, 3}, 0.7);
     DistanceOptions options;
     options.tolerance_mm = 1e-5;
-    options.most_points = 200'000;
+    options.max_points = 200'000;
     for (const auto& [from, to] : {std::pair(&coarse, &fine), std::pair(&fine, &coarse)}) {
-        const Farthest found = farthest(*from, all_of(*from), *to, options);
+        const OneSidedDistance found = one_sided_distance(*from, all_of(*from), *to, options);
         EXPECT_LE(found.mm, 1e-12);
         EXPECT_LE(found.at_most, 1e-5 + 1e-12) << "all parts are settled before the points run out";
     }
@@ -102,7 +102,7 @@ TEST(Distance, NoPointIsFartherThanTheBound) {
         const TriangleMesh other = shapes::moved(shapes::rotated(shape.mesh, {1, 1, 2}, 0.1), {0.3, -0.2, 0.1});
         DistanceOptions options;
         options.tolerance = 0.02;
-        const Farthest found = farthest(shape.mesh, all_of(shape.mesh), other, options);
+        const OneSidedDistance found = one_sided_distance(shape.mesh, all_of(shape.mesh), other, options);
         const TriangleTree tree(other);
         for (int i = 0; i < 3'000; ++i) {
             const auto [a, b, c] = corners_of(shape.mesh, random() % shape.mesh.triangles.size());
@@ -125,9 +125,9 @@ TEST(Distance, StaysABoundWhenFewPointsAreAllowed) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 32);
     const TriangleMesh box = shapes::box({-8, -8, -8}, {8, 8, 8});
     DistanceOptions hasty;
-    hasty.most_points = 1;
-    const Farthest rough = farthest(box, all_of(box), ball, hasty);
-    const Farthest fine = farthest(box, all_of(box), ball);
+    hasty.max_points = 1;
+    const OneSidedDistance rough = one_sided_distance(box, all_of(box), ball, hasty);
+    const OneSidedDistance fine = one_sided_distance(box, all_of(box), ball);
     EXPECT_LE(rough.mm, fine.at_most);
     EXPECT_GE(rough.at_most, fine.mm);
 }

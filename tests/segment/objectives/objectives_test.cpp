@@ -33,14 +33,14 @@ TEST(Objectives, OverTheCutTheOtherPiecesCountOnlyForWhatIsOutOfReach) {
     objectives.scope = TermScope::cut;
     objectives.weights = {1, 1, 1, 1, 10};
     CutEvaluation halves = two_halves(100, 300);
-    halves.reach = CutReach{20, 1'000};
+    halves.access = CutAccess{20, 1'000};
     const std::vector<PieceShare> others{{7, 0.5, 30}, {9'000, 0.4, 50}};
     const Terms t = *terms(halves, others, objectives);
     EXPECT_DOUBLE_EQ(t.face_ratio, 1.5);
     EXPECT_DOUBLE_EQ(t.undercut, (0.2 + 0.1) / 2);
     EXPECT_DOUBLE_EQ(t.unreachable, 0.1);
     EXPECT_DOUBLE_EQ(t.total, 1.5 + t.fragility + t.piece_count + t.undercut + 1);
-    halves.reach.reset();
+    halves.access.reset();
     EXPECT_EQ(terms(halves, others, objectives)->unreachable, 0);
 }
 

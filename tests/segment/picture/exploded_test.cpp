@@ -71,7 +71,7 @@ TEST(Exploded, EqualHalvesOpenByTheWantedGap) {
     ASSERT_TRUE(halves);
     ExplodeOptions options;
     options.gap = 0.2;
-    options.least_factor = 0;
+    options.min_factor = 0;
     const std::vector<Vec3> shifts = exploded_shifts(halves->pieces, options);
     EXPECT_NEAR(shifts[0].z - shifts[1].z, 0.2 * std::sqrt(300), 1e-9);
 }

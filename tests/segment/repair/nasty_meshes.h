@@ -17,7 +17,7 @@ namespace qchopper {
 // Calls action(mesh, name) with every mesh of the folder that can be read, welded, with at most so many triangles. The
 // folder must be there (NEEDS_MESH).
 template <class Action>
-void for_each_nasty_mesh(std::size_t most_triangles, const Action& action) {
+void for_each_nasty_mesh(std::size_t max_triangles, const Action& action) {
     for (const auto& entry : std::filesystem::directory_iterator(real_mesh("nasty"))) {
         TriangleMesh mesh;
         try {
@@ -26,7 +26,7 @@ void for_each_nasty_mesh(std::size_t most_triangles, const Action& action) {
             continue;
         }
         weld(mesh);
-        if (mesh.triangles.size() <= most_triangles) action(std::move(mesh), entry.path().filename().string());
+        if (mesh.triangles.size() <= max_triangles) action(std::move(mesh), entry.path().filename().string());
     }
 }
 

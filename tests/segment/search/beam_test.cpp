@@ -74,7 +74,7 @@ TEST(Beam, OfAnyWidthFindsTheGreedyCutIfOneIsAskedFor) {
 }
 
 // Every pair of cuts that the search could make, made. Least cost of all.
-double least_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settings) {
+double min_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settings) {
     const Segmentation start = uncut(mesh, 0);
     EvaluationCache cache(settings.objectives, settings.candidates);
     double least = std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ TEST(Beam, AsWideAsAllCandidatesFindsTheCheapestTwoCuts) {
                                      shapes::rotated(shapes::torus({0, 0, 0}, 40, 12, 12), {1, 2, 3}, 0.5)}) {
         SearchSettings wide = settings_of(2, 9, 3);
         wide.near = 0;
-        const double least = least_of_all_pairs(mesh, wide);
+        const double least = min_of_all_pairs(mesh, wide);
         const Found widest = searched(mesh, wide);
         EXPECT_NEAR(widest.end.cost, least, 1e-7);
         for (const std::size_t width : {1U, 2U, 4U}) {

@@ -104,7 +104,7 @@ TEST(LateRank, OwnBoxesAreThoseOfThePartsThatTheCutMakes) {
     const std::vector<Ranked> ranked =
         with_own_boxes(plain(s, 0, settings), s, 0, settings.objectives, cache, Context{});
     double before = 0;
-    for (std::size_t k = 0; k < std::min(ranked.size(), most_own_boxes); ++k) {
+    for (std::size_t k = 0; k < std::min(ranked.size(), max_own_boxes); ++k) {
         Segmentation after = s;
         ASSERT_TRUE(apply(after, cut_by(s, 0, ranked, k, settings), 0));
         double boxes = 0;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "segment/access/cut_reach.h"
-#include "segment/access/dense_reach.h"
+#include "segment/access/cut_access.h"
+#include "segment/access/dense_access.h"
 #include "segment/access/tool_directions.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
@@ -43,41 +43,41 @@ std::optional<double> reference_mm2(Segmentation segmentation, const Plane& plan
     double sum = 0;
     for (const Piece& piece : segmentation.pieces) {
         const JudgedPiece judged = piece.samples->judged();
-        const LeastUnreachable best = least_unreachable(judged, oriented_box(piece.mesh->points).axis, tilt_deg);
+        const MinUnreachable best = min_unreachable(judged, oriented_box(piece.mesh->points).axis, tilt_deg);
         sum += unreachable_area(judged, best.base, tilt_deg, dense_directions()).total_mm2(tilt_deg);
     }
     return sum;
 }
 
-TEST(DenseReach, IsWhatDenseDirectionsLeaveOfThePiecesThatAreReallyCut) {
+TEST(DenseAccess, IsWhatDenseDirectionsLeaveOfThePiecesThatAreReallyCut) {
     const Segmentation segmentation = bone(Specimen::femur);
     const Piece& piece = segmentation.pieces[0];
     const double sample_mm2 = scan_area_mm2(piece) / sample_count;
     int compared = 0;
     const std::array<Vec3, 3> axis = oriented_box(piece.mesh->points).axis;
     for (const double tilt : {10.0, 45.0, 60.0}) {
-        DenseReach reach(piece, tilt);
+        DenseAccess access(piece, tilt);
         for (const Vec3& normal : {axis[0], axis[2], Vec3{0.6, 0.48, 0.64}}) {
             for (const double share : {0.4, 0.6}) {
                 const Plane plane = plane_at(piece, normal, share);
                 const std::optional<double> really = reference_mm2(segmentation, plane, tilt);
                 if (!really) continue;
                 ++compared;
-                EXPECT_NEAR(reach.unreachable_mm2(plane), *really, 3 * sample_mm2) << tilt << ' ' << share;
+                EXPECT_NEAR(access.unreachable_mm2(plane), *really, 3 * sample_mm2) << tilt << ' ' << share;
             }
         }
     }
     EXPECT_GE(compared, 12);
 }
 
-TEST(DenseReach, NeverLeavesMoreThanTheDirectionsOfTheScan) {
+TEST(DenseAccess, NeverLeavesMoreThanTheDirectionsOfTheScan) {
     const Segmentation segmentation = bone(Specimen::skull);
     const Piece& piece = segmentation.pieces[0];
-    DenseReach reach(piece, 60);
+    DenseAccess access(piece, 60);
     for (const double share : {0.2, 0.5, 0.8}) {
         const Plane plane = plane_at(piece, {0.36, 0.48, 0.8}, share);
-        const double dense = reach.unreachable_mm2(plane);
-        EXPECT_LE(dense, cut_reach(piece, plane, 60).unreachable_mm2);
+        const double dense = access.unreachable_mm2(plane);
+        EXPECT_LE(dense, cut_access(piece, plane, 60).unreachable_mm2);
         EXPECT_GE(dense, 0);
     }
 }
@@ -88,12 +88,12 @@ TEST(RefinedPlane, LeavesNoMoreAndReportsWhatItLeaves) {
     bool is_better = false;
     for (const double share : {0.3, 0.5, 0.7}) {
         const Plane from = plane_at(piece, {0, 0, 1}, share);
-        DenseReach reach(piece, 60);
-        const double before = reach.unreachable_mm2(from);
-        const RefinedPlane found = refined_plane(reach, piece, from, 1, {});
+        DenseAccess access(piece, 60);
+        const double before = access.unreachable_mm2(from);
+        const RefinedPlane found = refined_plane(access, piece, from, 1, {});
         EXPECT_LE(found.unreachable_mm2, before);
         EXPECT_NEAR(norm(found.plane.normal), 1, 1e-12);
-        DenseReach fresh(piece, 60);
+        DenseAccess fresh(piece, 60);
         EXPECT_EQ(fresh.unreachable_mm2(found.plane), found.unreachable_mm2);
         is_better |= found.unreachable_mm2 < before;
     }
@@ -105,8 +105,8 @@ TEST(RefinedPlane, IsTheSameForAnyNumberOfThreads) {
     const Piece& piece = segmentation.pieces[0];
     const Plane from = plane_at(piece, {0, 0, 1}, 0.5);
     const auto refine = [&] {
-        DenseReach reach(piece, 60);
-        return refined_plane(reach, piece, from, 1, {}).plane;
+        DenseAccess access(piece, 60);
+        return refined_plane(access, piece, from, 1, {}).plane;
     };
     const Plane several = refine();
     const ThreadLimit one(1);

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "base/parallel.h"
-#include "segment/access/cut_reach.h"
+#include "segment/access/cut_access.h"
 #include "segment/mesh/boxes_needed.h"
 #include "segment/sample/sample.h"
-#include "segment/search/reach_rank.h"
+#include "segment/search/access_rank.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"
 
@@ -137,22 +137,22 @@ TEST(SizeCut, TheBestPlaneIsTheCheapestOfThoseForSize) {
         const BlocksNeeded blocks = [&](Vec3 size) { return boxes_needed(size, s.limit); };
         EvaluationCache cache(settings.objectives, settings.candidates);
         const auto planes = candidates_for_size(cache.box(segmentation.pieces[0]), settings.candidates, blocks);
-        ASSERT_GE(planes.size(), least_best_planes);
+        ASSERT_GE(planes.size(), min_best_planes);
         std::vector<Ranked> all;
-        for (int n = 0; n < 3; ++n) all = rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 0, n);
+        for (int n = 0; n < 3; ++n) all = rank_whole_normals_by_access(segmentation, 0, settings, cache, {}, 0, n);
         std::erase_if(all, [&](const Ranked& r) {
             return !planes.contains(
                 {static_cast<std::size_t>(r.normal_index), static_cast<std::size_t>(r.offset_index)});
         });
-        const std::vector<Ranked> best = rank(segmentation, 0, settings, cache, {}, least_best_planes, blocks);
-        ASSERT_GE(best.size(), least_best_planes);
-        for (std::size_t i = 0; i < least_best_planes; ++i) EXPECT_EQ(best[i].plane, all[i].plane) << i;
+        const std::vector<Ranked> best = rank(segmentation, 0, settings, cache, {}, min_best_planes, blocks);
+        ASSERT_GE(best.size(), min_best_planes);
+        for (std::size_t i = 0; i < min_best_planes; ++i) EXPECT_EQ(best[i].plane, all[i].plane) << i;
         for (const Ranked& r : best) {
             EXPECT_TRUE(
                 planes.contains({static_cast<std::size_t>(r.normal_index), static_cast<std::size_t>(r.offset_index)}));
         }
         EvaluationCache fresh(settings.objectives, settings.candidates);
-        EXPECT_EQ(rank(segmentation, 0, settings, fresh, {}, least_best_planes, blocks), best)
+        EXPECT_EQ(rank(segmentation, 0, settings, fresh, {}, min_best_planes, blocks), best)
             << "what was ranked before changes nothing";
     }
 }

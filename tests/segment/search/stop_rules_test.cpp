@@ -95,7 +95,7 @@ TEST(StopRules, AJudgeChecksEveryPieceOnce) {
     EXPECT_EQ(boxes, 4) << "only the new pieces are checked";
 }
 
-TEST(StopRules, WhatArmAndToolsCannotCarveIsCutForLowBlocksWherePiecesAreCutForSize) {
+TEST(StopRules, WhatArmAndToolsCannotMillIsCutForLowBlocksWherePiecesAreCutForSize) {
     const Segmentation s = two_boxes();
     StopRules rules;
     rules.fits_cell = true;
@@ -103,7 +103,7 @@ TEST(StopRules, WhatArmAndToolsCannotCarveIsCutForLowBlocksWherePiecesAreCutForS
     PieceChecks checks;
     checks.fits_cell = [](const Piece& p) { return p.name == "A"; };
     checks.blocks_needed = [](Vec3) { return 2.0; };
-    checks.is_carvable = [&](const Piece& p) {
+    checks.is_machinable = [&](const Piece& p) {
         asked += p.name;
         return false;
     };

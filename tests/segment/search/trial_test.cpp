@@ -117,9 +117,9 @@ TEST(Trial, OfASmallSolidDoesNotDependOnTheScanAroundIt) {
         const UnreachableSurface left{tenth * before, 0.03};
         return is_of_a(p) ? none : by_cuts({{before, 0.06}, left, left, left})(p);
     };
-    const auto cuts_with = [&](double least_gain_mm2) {
+    const auto cuts_with = [&](double min_gain_mm2) {
         PieceChecks checks{{}, reach};
-        checks.least_gain_mm2 = least_gain_mm2;
+        checks.min_gain_mm2 = min_gain_mm2;
         return searched(both, settings_of(), checks).segmentation.cuts.size();
     };
     EXPECT_EQ(cuts_with(0), 1U);
@@ -173,11 +173,11 @@ TEST(Trial, WhereEveryPieceIsPassedOverEachIsNamed) {
 TEST(Trial, IsKeptWhereEveryPieceHoldsTheRuleThen) {
     for (const std::size_t beam : {1U, 2U}) {
         PieceChecks checks{{}, by_cuts({too_much(3000)})};
-        checks.least_gain_mm2 = 4 * 2999;
+        checks.min_gain_mm2 = 4 * 2999;
         const Found one = searched(ball(), settings_of(beam), checks);
         EXPECT_EQ(one.end.reason, EndReason::rules_hold) << one.end.sentence;
         EXPECT_EQ(one.reported, (std::vector<std::size_t>{1}));
-        checks.least_gain_mm2 = 4 * 3001;
+        checks.min_gain_mm2 = 4 * 3001;
         const Found too_little = searched(ball(), settings_of(beam), checks);
         EXPECT_TRUE(too_little.end.sentence.ends_with("(2 % may be), too little for a cut to count"))
             << too_little.end.sentence;

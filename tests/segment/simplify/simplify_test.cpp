@@ -33,7 +33,7 @@ SimplifyOptions within(double mm) {
 
 SimplifyOptions at_most(std::size_t faces) {
     SimplifyOptions options;
-    options.most_faces = faces;
+    options.max_faces = faces;
     return options;
 }
 
@@ -244,7 +244,7 @@ std::vector<shapes::Named> shapes_and_samples() {
     return all;
 }
 
-double least_squared_roundness(const TriangleMesh& mesh) {
+double min_squared_roundness(const TriangleMesh& mesh) {
     double least = 1;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         least = std::min(least, squared_roundness(shape_of(corners_of(mesh, t))));
@@ -274,7 +274,7 @@ TEST(Simplify, InPassesEveryShapeStaysManifoldAndKeepsItsPoints) {
             EXPECT_GE(fewer.triangles.size() + 1, most) << name;  // not fewer than asked for
             expect_manifold(fewer, name);
             for (const Vec3& p : fewer.points) EXPECT_TRUE(points.contains({p.x, p.y, p.z})) << name;
-            EXPECT_GE(least_squared_roundness(fewer), std::min(9e-4, least_squared_roundness(shape.mesh))) << name;
+            EXPECT_GE(min_squared_roundness(fewer), std::min(9e-4, min_squared_roundness(shape.mesh))) << name;
         }
     }
 }
@@ -346,7 +346,7 @@ TEST(Simplify, InPassesItDeviatesHardlyMoreThanByTheQueue) {
         EXPECT_FALSE(report.is_by_queue);
         TriangleMesh by_queue = bone;
         CollapseLimits limits;
-        limits.most_faces = 6000;
+        limits.max_faces = 6000;
         ASSERT_TRUE(collapse_edges(by_queue, {}, limits));
         EXPECT_EQ(in_passes.triangles.size(), by_queue.triangles.size());
         const double of_queue = std::max(farthest_sample(bone, by_queue), farthest_sample(by_queue, bone));

@@ -145,7 +145,7 @@ TEST(SectionStress, OfAllPlanesOfANormalIsThatOfThePlainReference) {
     const auto model = stressed(shape, 3.7);
     const StressedPart part = stressed_part(model, shape);
     ASSERT_EQ(part.voxels.size(), model->voxels.size());
-    std::uint32_t most_sections = 0;
+    std::uint32_t max_sections = 0;
     for (const Vec3 n : normals()) {
         std::vector<double> offsets;
         for (int i = -20; i <= 40; ++i) offsets.push_back(i * 1.8713);
@@ -157,10 +157,10 @@ TEST(SectionStress, OfAllPlanesOfANormalIsThatOfThePlainReference) {
             EXPECT_NEAR(got[i].area_mm2, wanted.area_mm2, 1e-9 * wanted.area_mm2);
             EXPECT_EQ(got[i].sections, wanted.sections);
             EXPECT_EQ(got[i].too_coarse, wanted.too_coarse);
-            most_sections = std::max(most_sections, got[i].sections);
+            max_sections = std::max(max_sections, got[i].sections);
         }
     }
-    EXPECT_GE(most_sections, 3U);
+    EXPECT_GE(max_sections, 3U);
 }
 
 TEST(SectionStress, AHangingBarHasItsWeightBelowAsTension) {

@@ -46,7 +46,7 @@ void Bench::write_ticket(const WireTicket& ticket) {
     cell.ticket_draft = encode(ticket);
 }
 
-void Bench::beat() {
+void Bench::heartbeat() {
     receive_heartbeat(cell, encode(Heartbeat{cell.memory.epoch_held, owner, ++counter}), now);
 }
 

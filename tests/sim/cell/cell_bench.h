@@ -24,7 +24,7 @@ struct Bench {
     AckResult send(Command command);
     AckResult claim(std::uint32_t who = owner, std::uint32_t whose_secret = secret, std::uint32_t code = 0);
     void write_ticket(const WireTicket& ticket);
-    void beat();
+    void heartbeat();
     void pass(std::int64_t ms);  // in steps of 10 ms, without heartbeats
 
     // The ways to a stored, verified, prepared, running job.

@@ -98,7 +98,7 @@ TEST(CellControl, HoldUnholdAndStopBesideADispatchThatGoesOn) {
     EXPECT_EQ(answer, "OK");
     EXPECT_EQ(rig.send(CellCommand::stop).kind, Kind::done);
     running.thread.join();
-    EXPECT_EQ(running.outcome.verdict, StartVerdict::started) << running.outcome.why;
+    EXPECT_EQ(running.outcome.start_outcome, StartOutcome::started) << running.outcome.why;
     EXPECT_EQ(running.outcome.job_result, JobResult::stopped);
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
 }
@@ -128,7 +128,7 @@ TEST(Fault, F46_AbortOfAProgramWithoutLeaseIsAccepted) {
     ASSERT_TRUE(rig.comes_to(PackState::execute));
     EXPECT_EQ(rig.send(CellCommand::abort).kind, Kind::done);
     running.thread.join();
-    EXPECT_EQ(running.outcome.verdict, StartVerdict::started);
+    EXPECT_EQ(running.outcome.start_outcome, StartOutcome::started);
     EXPECT_EQ(running.outcome.job_state, JobState::aborted);
     // Back to Idle: Clear with consent, which this cell gives by itself, then Reset.
     ASSERT_TRUE(rig.comes_to(PackState::aborted)) << name(rig.cell->status().state);
@@ -185,7 +185,7 @@ TEST(Fault, F34_ATakeoverWithTheCodeOfThePanelEndsTheLeaseOfTheOther) {
     EXPECT_FALSE(rig.cell->status().has(flag::lease_held));
     EXPECT_EQ(rig.send(CellCommand::stop).kind, Kind::done);
     running.thread.join();
-    EXPECT_EQ(running.outcome.verdict, StartVerdict::started) << running.outcome.why;
+    EXPECT_EQ(running.outcome.start_outcome, StartOutcome::started) << running.outcome.why;
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
 }
 

@@ -9,7 +9,7 @@ namespace qchopper::rig {
 namespace {
 
 constexpr std::size_t header_bytes = 7;
-constexpr std::size_t most_recorded = 50;
+constexpr std::size_t max_recorded = 50;
 
 // Of the data of a read answer or of a written block; other frames stay.
 void swap_pairs(Bytes& frame) {
@@ -82,7 +82,7 @@ std::vector<Piece> FaultProxy::pass(int connection, Way way, const Bytes& frame)
     Lane& lane = lanes_[connection][static_cast<std::size_t>(way)];
     if (way == Way::to_cell) {
         recorded_.push_back(frame);
-        if (recorded_.size() > most_recorded) recorded_.pop_front();
+        if (recorded_.size() > max_recorded) recorded_.pop_front();
     }
     if (lane.is_dead || frame.empty()) return {};
     Armed armed = draw(way, frame);

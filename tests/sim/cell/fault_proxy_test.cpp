@@ -56,7 +56,7 @@ void expect_one_start(LinkFault fault, std::int64_t number) {
             behind.proxy->arm(fault, Way::to_pc, number, [&is_next](const Bytes&) { return is_next; });
         }
         const JobOutcome outcome = behind.dispatch();
-        EXPECT_EQ(outcome.verdict, StartVerdict::started) << rig::name(fault) << ": " << outcome.why;
+        EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << rig::name(fault) << ": " << outcome.why;
         EXPECT_EQ(behind.cell->status().starts_total, 1U) << rig::name(fault);
     }
 }
@@ -103,7 +103,7 @@ TEST(Fault, F39_ChunksThatAreLostDoubledLateOrDamagedMakeTheRightFile) {
     }
     const rig::Job job = rig::make_job(232 * 30 + 7, 20);
     const JobOutcome outcome = behind.dispatch(job, rig::quick_dispatch({}));
-    EXPECT_EQ(outcome.verdict, StartVerdict::started) << outcome.why;
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << outcome.why;
     EXPECT_EQ(outcome.job_result, JobResult::complete);
     EXPECT_EQ(behind.cell->status().starts_total, 1U);
 }
@@ -111,7 +111,7 @@ TEST(Fault, F39_ChunksThatAreLostDoubledLateOrDamagedMakeTheRightFile) {
 TEST(Fault, F08_AStartOfADeadConnectionThatComesAfterTheNextClaimIsStale) {
     Behind behind;
     behind.proxy->arm(LinkFault::hold, Way::to_cell, 4000, rig::is_command(CellCommand::start));
-    EXPECT_EQ(behind.dispatch().verdict, StartVerdict::started);
+    EXPECT_EQ(behind.dispatch().start_outcome, StartOutcome::started);
     EXPECT_EQ(behind.cell->status().starts_total, 1U);
     std::this_thread::sleep_for(std::chrono::milliseconds(4500));
     EXPECT_EQ(behind.cell->status().starts_total, 1U);
@@ -134,7 +134,7 @@ void expect_unreachable(std::uint16_t port) {
     }
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events.back().kind, JournalKind::closed);
-    EXPECT_EQ(events.back().verdict, StartVerdict::not_started);
+    EXPECT_EQ(events.back().start_outcome, StartOutcome::not_started);
 }
 
 TEST(Fault, F01_NothingListensAndNothingIsSent) {

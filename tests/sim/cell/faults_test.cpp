@@ -234,8 +234,8 @@ TEST(Fault, F22_ZeroedHoldingRegistersAreInert) {
     bench.to_running();
     arm(bench.cell, {Fault::zero_holding}, bench.now);
     const Status before = bench.status();
-    const Registers beat = encode(Heartbeat{bench.cell.memory.epoch_held, bench::owner, 9});
-    EXPECT_EQ(answer_pdu(1, rig::write_request(500, beat), bench.cell, bench.now, bench.hooks)[0], 16);
+    const Registers heartbeat = encode(Heartbeat{bench.cell.memory.epoch_held, bench::owner, 9});
+    EXPECT_EQ(answer_pdu(1, rig::write_request(500, heartbeat), bench.cell, bench.now, bench.hooks)[0], 16);
     EXPECT_TRUE(bench.cell.faults.armed.empty());
     Status after = bench.status();
     EXPECT_EQ(after.bad_frames, before.bad_frames);

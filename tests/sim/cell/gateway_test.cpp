@@ -98,7 +98,7 @@ TEST(Gateway, ARestartBeforeTheStartThatItHidesIsSeenAndTheJobStartsOnce) {
     for (const std::string point : {"after_claim_sent", "after_store_sent", "after_put_file", "before_start_intent"}) {
         const Seen seen = dispatched(Gateway::repeats, point, "power on");
         EXPECT_GT(seen.hidden, 0) << point;
-        EXPECT_EQ(seen.outcome.verdict, StartVerdict::started) << point << ": " << seen.outcome.why;
+        EXPECT_EQ(seen.outcome.start_outcome, StartOutcome::started) << point << ": " << seen.outcome.why;
         EXPECT_EQ(seen.outcome.job_result, JobResult::complete) << point << ": " << seen.outcome.why;
         EXPECT_EQ(seen.starts_total, 1U) << point;
     }
@@ -108,7 +108,7 @@ TEST(Gateway, ARestartAfterTheStartThatItHidesIsAPowerLossAndNoSecondStart) {
     for (const std::string& point : {start_arrived, running}) {
         const Seen seen = dispatched(Gateway::repeats, point, "power on");
         EXPECT_GT(seen.hidden, 0) << point;
-        EXPECT_EQ(seen.outcome.verdict, StartVerdict::started) << point << ": " << seen.outcome.why;
+        EXPECT_EQ(seen.outcome.start_outcome, StartOutcome::started) << point << ": " << seen.outcome.why;
         EXPECT_EQ(seen.outcome.job_result, JobResult::power_loss) << point << ": " << seen.outcome.why;
         EXPECT_EQ(seen.starts_total, 1U) << point;
     }
@@ -119,29 +119,29 @@ TEST(Gateway, AnEmptiedCellThatItHidesGetsNoSecondStart) {
         const Seen seen = dispatched(Gateway::repeats, point, "power store-lost");
         EXPECT_GT(seen.hidden, 0) << point;
         EXPECT_TRUE(seen.outcome.store_is_lost) << point << ": " << seen.outcome.why;
-        EXPECT_EQ(seen.outcome.verdict, point == running ? StartVerdict::started : StartVerdict::unknown)
+        EXPECT_EQ(seen.outcome.start_outcome, point == running ? StartOutcome::started : StartOutcome::unknown)
             << seen.outcome.why;
         EXPECT_EQ(seen.starts_before, 1U) << point;
         EXPECT_EQ(seen.starts_total, 0U) << point;
     }
     const Seen stored = dispatched(Gateway::repeats, "after_store_sent", "power store-lost");
-    EXPECT_EQ(stored.outcome.verdict, StartVerdict::not_started) << stored.outcome.why;
+    EXPECT_EQ(stored.outcome.start_outcome, StartOutcome::not_started) << stored.outcome.why;
     EXPECT_EQ(stored.starts_before + stored.starts_total, 0U);
     // START goes to the emptied cell, through the gateway: the PC cannot know.
     const Seen sent = dispatched(Gateway::repeats, "before_start_intent", "power store-lost");
-    EXPECT_EQ(sent.outcome.verdict, StartVerdict::unknown) << sent.outcome.why;
+    EXPECT_EQ(sent.outcome.start_outcome, StartOutcome::unknown) << sent.outcome.why;
     EXPECT_EQ(sent.starts_before + sent.starts_total, 0U);
 }
 
 // The word is right, and the hand-off ends with it: the next dispatch takes the job up.
 TEST(Gateway, WhatItReportsEndsTheHandOffWithTheRightWord) {
     const Seen early = dispatched(Gateway::reports, "after_store_sent", "power on");
-    EXPECT_EQ(early.outcome.verdict, StartVerdict::not_started) << early.outcome.why;
+    EXPECT_EQ(early.outcome.start_outcome, StartOutcome::not_started) << early.outcome.why;
     EXPECT_NE(early.outcome.why.find("gateway"), std::string::npos) << early.outcome.why;
     EXPECT_EQ(early.starts_total, 0U);
     for (const std::string& point : {start_arrived, running}) {
         const Seen seen = dispatched(Gateway::reports, point, "power on");
-        EXPECT_EQ(seen.outcome.verdict, StartVerdict::started) << point << ": " << seen.outcome.why;
+        EXPECT_EQ(seen.outcome.start_outcome, StartOutcome::started) << point << ": " << seen.outcome.why;
         EXPECT_EQ(seen.starts_total, 1U) << point;
     }
 }

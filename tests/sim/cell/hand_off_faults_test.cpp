@@ -211,13 +211,13 @@ Tally try_many(std::uint32_t seeds, Odds odds) {
         trial.let_everything_arrive();
         const std::uint32_t starts = trial.starts();
         EXPECT_LE(starts, 1U) << seed << "\n" << trial.log;
-        tally.started += end.verdict == StartVerdict::started ? 1 : 0;
-        tally.not_started += end.verdict == StartVerdict::not_started ? 1 : 0;
-        tally.unknown += end.verdict == StartVerdict::unknown ? 1 : 0;
-        if (end.verdict == StartVerdict::started) {
+        tally.started += end.start_outcome == StartOutcome::started ? 1 : 0;
+        tally.not_started += end.start_outcome == StartOutcome::not_started ? 1 : 0;
+        tally.unknown += end.start_outcome == StartOutcome::unknown ? 1 : 0;
+        if (end.start_outcome == StartOutcome::started) {
             EXPECT_EQ(starts_at_end, 1U) << seed << "\n" << trial.log;
         }
-        if (end.verdict == StartVerdict::not_started) {
+        if (end.start_outcome == StartOutcome::not_started) {
             EXPECT_EQ(starts, 0U) << seed << "\n" << trial.log;
         }
         if (trial.stopped_s) {

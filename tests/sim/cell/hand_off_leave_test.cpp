@@ -125,7 +125,7 @@ Left stop_in_standstill(const std::string& at, double wait_s, bool silent = fals
 TEST(HandOffLeave, AFrozenCellIsLeftBeforeTheStart) {
     const Left left = stop_in_standstill("waiting for consent", 3.2);
     EXPECT_LT(left.after_s, 2.2);
-    EXPECT_EQ(left.outcome.verdict, StartVerdict::not_started) << left.outcome.why;
+    EXPECT_EQ(left.outcome.start_outcome, StartOutcome::not_started) << left.outcome.why;
     EXPECT_TRUE(left.outcome.cancelled);
     EXPECT_GE(left.swallowed, 2);  // CANCEL and RELEASE
     EXPECT_NE(left.outcome.why.find("did not confirm"), std::string::npos) << left.outcome.why;
@@ -134,7 +134,7 @@ TEST(HandOffLeave, AFrozenCellIsLeftBeforeTheStart) {
 TEST(HandOffLeave, AFrozenCellIsLeftWhileTheJobRuns) {
     const Left left = stop_in_standstill("the job has started", 3.2);
     EXPECT_LT(left.after_s, 2.2);
-    EXPECT_EQ(left.outcome.verdict, StartVerdict::started) << left.outcome.why;
+    EXPECT_EQ(left.outcome.start_outcome, StartOutcome::started) << left.outcome.why;
     EXPECT_TRUE(left.outcome.cancelled);
     EXPECT_GE(left.swallowed, 1);  // RELEASE
 }
@@ -143,10 +143,10 @@ TEST(HandOffLeave, ASilentCellIsLeftBeforeAndAfterTheStart) {
     for (const double wait_s : {0.1, 1.7}) {
         const Left before = stop_in_standstill("waiting for consent", wait_s, true);
         EXPECT_LT(before.after_s, 2.2);
-        EXPECT_EQ(before.outcome.verdict, StartVerdict::not_started) << before.outcome.why;
+        EXPECT_EQ(before.outcome.start_outcome, StartOutcome::not_started) << before.outcome.why;
         const Left running = stop_in_standstill("the job has started", wait_s, true);
         EXPECT_LT(running.after_s, 2.2);
-        EXPECT_EQ(running.outcome.verdict, StartVerdict::started) << running.outcome.why;
+        EXPECT_EQ(running.outcome.start_outcome, StartOutcome::started) << running.outcome.why;
     }
 }
 

@@ -50,13 +50,13 @@ struct Rig {
 };
 
 std::string whole(const JobOutcome& outcome) {
-    std::string text = std::string(describe(outcome.verdict)) + ": " + outcome.why + "\n";
+    std::string text = std::string(describe(outcome.start_outcome)) + ": " + outcome.why + "\n";
     for (const std::string& line : outcome.log) text += line + "\n";
     return text;
 }
 
 void expect_complete(const JobOutcome& outcome) {
-    EXPECT_EQ(outcome.verdict, StartVerdict::started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << whole(outcome);
     EXPECT_EQ(outcome.job_state, JobState::ended) << whole(outcome);
     EXPECT_EQ(outcome.job_result, JobResult::complete);
     EXPECT_EQ(outcome.starts, 1U);
@@ -116,7 +116,7 @@ TEST(HandOffOverTcp, WithoutConsentNothingStartsAndTheReportNamesTheReason) {
     const Rig rig(options);
     const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop));
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::no_consent);
     EXPECT_NE(outcome.why.find("did not consent"), std::string::npos) << outcome.why;
     EXPECT_FALSE(outcome.to_do.empty());
@@ -152,7 +152,7 @@ TEST(HandOffOverTcp, NobodyAnswersTheQuestionInTime) {
     DispatchOptions quick = quick_dispatch(rig.drop);
     quick.timings.consent_s = 0.3;
     const JobOutcome outcome = rig.dispatch(job, quick);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     EXPECT_EQ(rig.cell->status().starts_total, 0U);
     EXPECT_EQ(rig.cell->status().job_state, JobState::none);
@@ -163,7 +163,7 @@ TEST(HandOffOverTcp, AFileThatTheCellDoesNotFindIsNamed) {
     const Job job = make_job();
     std::filesystem::create_directories(rig.folder.path / "elsewhere");
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.folder.path / "elsewhere"));
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::file_missing);
     EXPECT_EQ(rig.cell->status().starts_total, 0U);
 }
@@ -180,7 +180,7 @@ TEST(HandOffOverTcp, AFileChangedOnTheWayIsRefused) {
         }
     };
     const JobOutcome outcome = rig.dispatch(job, options);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::hash_mismatch);
     EXPECT_EQ(rig.cell->status().starts_total, 0U);
 }
@@ -198,11 +198,11 @@ TEST(HandOffOverTcp, AFileOtherThanItsTicketIsNotEvenSent) {
 
 TEST(HandOffOverTcp, AJobBeyondTheReachIsRefusedWithTheReason) {
     CellSimOptions options;
-    options.limits.reach = {{-10, -10, 0}, {10, 10, 10}};
+    options.limits.workspace = {{-10, -10, 0}, {10, 10, 10}};
     const Rig rig(options);
     const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop));
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(outcome.refusal, AckResult::envelope) << whole(outcome);
     EXPECT_NE(outcome.why.find("reach"), std::string::npos);
 }
@@ -353,7 +353,7 @@ TEST(HandOffOverTcp, AskedToStopBeforeTheFirstStatusThereIsNone) {
     EXPECT_FALSE(read_first_status(*bus, "cell-1", context).has_value());
     const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started);
     EXPECT_TRUE(outcome.cancelled);
     EXPECT_EQ(rig.cell->status().ack_seq, 0U);
 }
@@ -368,7 +368,7 @@ TEST(HandOffOverTcp, AJobIdThatHasRunIsTakenUpAndNotStartedAgain) {
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
     const Job other = make_job(200, 2);
     const JobOutcome outcome = rig.dispatch(other, options);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::job_id_reused);
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
 }
@@ -389,7 +389,7 @@ TEST(HandOffOverTcp, CancelledBeforeTheStartTheCellConfirmsThatItDroppedTheJob) 
         if (line.find("waiting for consent") != std::string::npos) cancelled = true;
     };
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started) << whole(outcome);
     EXPECT_TRUE(outcome.cancelled);
     EXPECT_NE(whole(outcome).find("the cell has dropped the job"), std::string::npos) << whole(outcome);
     EXPECT_EQ(rig.cell->status().job_state, JobState::none);
@@ -404,7 +404,7 @@ TEST(HandOffOverTcp, CancelledWhileItRunsTheJobRunsOnByItself) {
     context.cancelled = &cancelled;
     context.on_progress = [&](const Progress&) { cancelled = true; };
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
-    EXPECT_EQ(outcome.verdict, StartVerdict::started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << whole(outcome);
     EXPECT_TRUE(outcome.cancelled);
     EXPECT_NE(outcome.why.find("runs on"), std::string::npos) << outcome.why;
     EXPECT_EQ(rig.cell->status().job_state, JobState::running);
@@ -422,7 +422,7 @@ TEST(HandOffOverTcp, CancelledWithStopTheMachineStops) {
     DispatchOptions options = quick_dispatch(rig.drop);
     options.stop_when_cancelled = true;
     const JobOutcome outcome = rig.dispatch(job, options, context);
-    EXPECT_EQ(outcome.verdict, StartVerdict::started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << whole(outcome);
     EXPECT_EQ(outcome.job_state, JobState::aborted) << whole(outcome);
     EXPECT_EQ(outcome.job_result, JobResult::stopped);
     EXPECT_FALSE(outcome.is_complete());
@@ -439,7 +439,7 @@ TEST(HandOffOverTcp, ACellRestartedWhileTheJobRunsReportsThePowerCut) {
         restarted = true;
     };
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
-    EXPECT_EQ(outcome.verdict, StartVerdict::started) << whole(outcome);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << whole(outcome);
     EXPECT_EQ(outcome.job_state, JobState::aborted) << whole(outcome);
     EXPECT_EQ(outcome.job_result, JobResult::power_loss);
     EXPECT_EQ(outcome.starts, 1U);
@@ -461,7 +461,7 @@ TEST(HandOffOverTcp, ALinkLostAtAnyStepEndsWithARightReportAndOneStart) {
             if (++rows == cut_at + 2) rig.restart();
         };
         const JobOutcome outcome = rig.dispatch(make_job(100, 2), options);
-        EXPECT_EQ(outcome.verdict, StartVerdict::started) << cut_at << whole(outcome);
+        EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << cut_at << whole(outcome);
         EXPECT_EQ(rig.cell->status().starts_total, 1U) << cut_at << whole(outcome);
         EXPECT_EQ(outcome.starts, 1U) << cut_at << whole(outcome);
     }

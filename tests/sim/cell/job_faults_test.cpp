@@ -216,7 +216,7 @@ TEST(Fault, F39_ChunksLostTwiceAndInAnyOrderMakeTheRightFile) {
 
 TEST(Fault, F41_WhatDoesNotFitTheCellIsRefusedWithItsField) {
     CellLimits limits;
-    limits.reach = {{-10, -10, 0}, {10, 10, 20}};
+    limits.workspace = {{-10, -10, 0}, {10, 10, 20}};
     limits.tools = {{3, 12, 18000, 6000}};
     const auto prepared = [&](void (*change)(WireTicket&)) {
         Bench bench(limits);

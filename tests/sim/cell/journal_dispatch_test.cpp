@@ -40,7 +40,7 @@ TEST(Fault, F27_AJournalThatFailsBeforeStartEndsWithoutAStartAndAfterItWithARepo
         };
         try {
             const JobOutcome outcome = rig.dispatch(rig.options);
-            EXPECT_EQ(outcome.verdict, StartVerdict::started) << failing_at << outcome.why;
+            EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << failing_at << outcome.why;
             EXPECT_TRUE(intent_is_kept) << failing_at;
             EXPECT_EQ(rig.cell.status().starts_total, 1U);
             ++followed;
@@ -62,9 +62,9 @@ TEST(Fault, F35_TheSameFileDispatchedTwiceStartsOnceAlsoWithoutAJournal) {
     const Cell rig;
     EXPECT_TRUE(rig.dispatch(rig.options).is_complete());
     const JobOutcome second = rig.dispatch(rig.options);  // whose journal was lost: it has none
-    EXPECT_EQ(second.verdict, StartVerdict::not_started);
-    EXPECT_TRUE(second.carved_before);
-    EXPECT_TRUE(second.carved_complete);
+    EXPECT_EQ(second.start_outcome, StartOutcome::not_started);
+    EXPECT_TRUE(second.milled_before);
+    EXPECT_TRUE(second.milled_complete);
     EXPECT_NE(second.to_do.find("--again"), std::string::npos);
     EXPECT_EQ(rig.cell.status().starts_total, 1U);
     DispatchOptions again = rig.options;
@@ -110,15 +110,15 @@ TEST(JournalDispatch, AJournalThatLostItsLastRowsIsNoReasonToSayNotStarted) {
             DispatchOptions options = rig.options;
             options.past = past_of(history, &history.jobs[0], rig.cell.status().owner_held);
             const JobOutcome outcome = adopt_job(*bus, decode_ticket(history.jobs[0].ticket).value, options, {});
-            EXPECT_EQ(outcome.verdict, StartVerdict::started) << kept << " rows kept: " << outcome.why;
+            EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << kept << " rows kept: " << outcome.why;
             EXPECT_EQ(outcome.starts, 1U) << kept;
             EXPECT_LT(outcome.took_s, 5) << kept << " rows kept: no wait for an acknowledgement that cannot come";
             ++taken_up;
         }
         rig.options.past = past_of(history, nullptr, rig.cell.status().owner_held);
         const JobOutcome again = rig.dispatch(rig.options);
-        EXPECT_EQ(again.verdict, StartVerdict::not_started) << kept << again.why;
-        EXPECT_TRUE(again.carved_before) << kept << again.why;
+        EXPECT_EQ(again.start_outcome, StartOutcome::not_started) << kept << again.why;
+        EXPECT_TRUE(again.milled_before) << kept << again.why;
     }
     EXPECT_GT(taken_up, 12);
     EXPECT_EQ(rig.cell.status().starts_total, 1U);

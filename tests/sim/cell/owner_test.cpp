@@ -69,7 +69,7 @@ TEST(Lease, RunsOutWithoutHeartbeatsAndLastsWithThem) {
     Bench bench;
     bench.to_prepared();
     for (int n = 0; n < 40; ++n) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(500);
     }
     EXPECT_EQ(bench.cell.job.state, JobState::prepared);
@@ -88,7 +88,7 @@ TEST(Lease, RunsOutWithoutHeartbeatsAndLastsWithThem) {
 TEST(Lease, AHeartbeatThatDoesNotChangeOrIsNotOursDoesNotCount) {
     Bench bench;
     bench.to_idle();
-    bench.beat();
+    bench.heartbeat();
     const std::uint32_t epoch = bench.cell.memory.epoch_held;
     for (int n = 0; n < 60; ++n) {
         receive_heartbeat(bench.cell, encode(Heartbeat{epoch, owner, bench.counter}), bench.now);
@@ -105,7 +105,7 @@ TEST(Lease, TheHeartbeatMayWrap) {
     bench.to_idle();
     bench.counter = 65530;
     for (int n = 0; n < 20; ++n) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(1000);
     }
     EXPECT_TRUE(bench.cell.lease.has_value());

@@ -358,7 +358,7 @@ TEST(Fault, F29_WithoutHeartbeatsOfThePcTheTicketDecides) {
         WireTicket ticket = good_ticket();
         ticket.on_link_loss = policy;
         bench.to_running(ticket);
-        bench.beat();
+        bench.heartbeat();
         bench.pass(2400);
         EXPECT_FALSE(bench.status().has(flag::watchdog_expired));
         bench.pass(400);
@@ -400,7 +400,7 @@ TEST(Fault, F32_ThePcsHeartbeatWraps) {
     bench.to_idle();
     bench.counter = 65530;
     for (int n = 0; n < 20; ++n) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(1000);
     }
     EXPECT_TRUE(bench.cell.lease.has_value());
@@ -478,7 +478,7 @@ TEST(Fault, F42_AnExpiredToken) {
     bench.to_prepared();
     const std::uint32_t token = bench.cell.job.token;
     for (int s = 0; s < 121; ++s) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(1000);
     }
     EXPECT_EQ(bench.send(CellCommand::start, job_a, token), AckResult::token_expired);
@@ -490,7 +490,7 @@ TEST(Fault, F59_AnEmergencyStopNeedsClearResetAndANewJob) {
     bench.to_running();
     arm(bench.cell, {Fault::e_stop_at, 40}, bench.now);
     for (int n = 0; n < 10; ++n) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(1000);
     }
     EXPECT_EQ(bench.cell.state, PackState::aborted);

@@ -35,7 +35,7 @@ std::pair<AckResult, std::uint32_t> prepare(const CellLimits& limits, const Chan
 
 TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
     CellLimits limits;
-    limits.reach = {{-10, -10, 0}, {10, 10, 20}};
+    limits.workspace = {{-10, -10, 0}, {10, 10, 20}};
     limits.max_stock = {30, 30, 30};
     limits.tools = {{3}, {4}};
     const auto answer = [&](const Change& change) { return prepare(limits, change); };
@@ -77,7 +77,7 @@ TEST(Prepare, IsPendingUntilSomebodyConsents) {
     bench.to_verified();
     ASSERT_EQ(bench.send(CellCommand::prepare, job_a), AckResult::pending);
     const std::uint64_t number = bench.cell.pending->number;
-    bench.beat();
+    bench.heartbeat();
     bench.pass(1000);
     EXPECT_EQ(bench.cell.ack.result, AckResult::pending);
     EXPECT_EQ(bench.send(CellCommand::prepare, job_a), AckResult::pending);  // the same question, not a second one

@@ -75,11 +75,11 @@ TEST(Start, NeedsTheTokenAndAWrongOneChangesNothing) {
     EXPECT_EQ(bench.send(CellCommand::start, job_b, token), AckResult::wrong_job);
     EXPECT_EQ(bench.cell.job.token, token);
     for (int s = 0; s < 119; ++s) {
-        bench.beat();
+        bench.heartbeat();
         bench.pass(1000);
     }
     EXPECT_EQ(bench.cell.job.state, JobState::prepared);
-    bench.beat();
+    bench.heartbeat();
     bench.pass(1500);
     EXPECT_EQ(bench.cell.job.state, JobState::stored);
     EXPECT_EQ(bench.send(CellCommand::start, job_a, token), AckResult::token_expired);

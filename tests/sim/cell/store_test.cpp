@@ -67,7 +67,7 @@ TEST(Copies, ASmallStoreRunsJobAfterJobAndRefusesOneThatNeverFits) {
     fs::create_directory(folder.path / "drop");
     CellSimOptions options = rig::quick_cell(folder.path / "drop");
     options.store_folder = folder.path / "store";
-    options.most_store_bytes = 30 * kib;
+    options.max_store_bytes = 30 * kib;
     CellSim cell(options);
     cell.start();
     const auto run = [&](std::size_t bytes) {
@@ -77,7 +77,7 @@ TEST(Copies, ASmallStoreRunsJobAfterJobAndRefusesOneThatNeverFits) {
     };
     for (int i = 0; i < 4; ++i) EXPECT_TRUE(run(20 * kib).is_complete()) << i;
     const JobOutcome outcome = run(40 * kib);
-    EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
+    EXPECT_EQ(outcome.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(outcome.refusal, AckResult::store_full);
     EXPECT_EQ(cell.status().starts_total, 4U) << "the ids stay though the copies go";
 }

@@ -1,4 +1,4 @@
-// A ball carved by a ball: its upper half is reached from above, more of it from a second direction.
+// A ball milled by a ball: its upper half is reached from above, more of it from a second direction.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "sim/replay/path_time.h"
 #include "sim/replay/replay.h"
-#include "sim/replay/stock/direction_frame.h"
+#include "sim/replay/stock/tool_axis_frame.h"
 #include "tests/shapes.h"
 #include "tests/sim/replay/box_job.h"
 
@@ -21,9 +21,9 @@ constexpr double step = 2;  // along the ball
 const Vec3 centre{0, 0, radius};
 
 // Circles about `out`, from the top down to an angle, with corners rounded so little that it does not count.
-WrittenChunk circles(std::size_t direction, Vec3 out, double last_angle, double last_height) {
-    WrittenChunk chunk{3, direction, 15000, {}};
-    const Pose frame = direction_frame(out);
+WrittenChunk circles(std::size_t orientation, Vec3 tool_axis, double last_angle, double last_height) {
+    WrittenChunk chunk{3, orientation, 15000, {}};
+    const Pose frame = tool_axis_frame(tool_axis);
     constexpr int corners = 180;
     const double far = radius + tool_radius;
     const auto tip = [&](double r, double height, double turn) {
@@ -54,9 +54,9 @@ BoxJob ball_job(bool is_tilted) {
     job.job.chunks = {circles(0, {0, 0, 1}, 0.5 * std::numbers::pi, -26)};
     if (!is_tilted) return job;
     const double tilt = 30 * std::numbers::pi / 180;
-    const Vec3 out{0, std::sin(tilt), std::cos(tilt)};
-    job.job.directions.push_back({out, 0, job.job.directions[0].setup_in_cell});
-    job.job.chunks.push_back(circles(1, out, 0.5 * std::numbers::pi, -14));
+    const Vec3 tool_axis{0, std::sin(tilt), std::cos(tilt)};
+    job.job.orientations.push_back({tool_axis, 0, job.job.orientations[0].setup_in_cell});
+    job.job.chunks.push_back(circles(1, tool_axis, 0.5 * std::numbers::pi, -14));
     return job;
 }
 

@@ -57,15 +57,15 @@ WrittenChunk side_chunk() {
 
 ReplayScene BoxJob::scene() const {
     return {&cell,
-            job.directions,
-            job.directions.size(),
+            job.orientations,
+            job.orientations.size(),
             chunks_of(job),
             {{-55, -40, -spoil}, {55, 40, tall + 5}},
             spoil,
             &target,
             is_base,
             0.25,
-            cell.machine->rotary_table ? job.directions[0].table_angle : 0};
+            cell.machine->rotary_table ? job.orientations[0].table_angle : 0};
 }
 
 BoxJob box_job(const std::string& cell_name) {
@@ -78,7 +78,7 @@ BoxJob box_job(const std::string& cell_name) {
     }
     made.cell.machine->tools[1].flute_length = flute;
     const double angle = made.cell.machine->rotary_table ? 0.5 : 0;
-    made.job.directions.push_back({{0, 0, 1}, angle, on_table(made.cell, spoil, angle)});
+    made.job.orientations.push_back({{0, 0, 1}, angle, on_table(made.cell, spoil, angle)});
     made.job.chunks = {top_chunk(), side_chunk()};
     return made;
 }

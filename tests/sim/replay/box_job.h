@@ -1,4 +1,4 @@
-// A small job that carves a box out of a block with a flat tool, in two chunks: its top and its sides.
+// A small job that mills a box out of a block with a flat tool, in two chunks: its top and its sides.
 
 #pragma once
 

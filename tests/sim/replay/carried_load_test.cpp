@@ -29,7 +29,7 @@ TEST(CarriedLoad, IsThatOfThePost) {
             // Across the flange, turned about all axes.
             spindle.spindle_in_flange = turned({Pose{}.row, {20, -35, 180}}, {0.9, normalized({1, 2, 3})}, 1);
             spindle.body_offset = 12;
-            for (const CarvingTool& tool : cell.machine->tools) {
+            for (const CuttingTool& tool : cell.machine->tools) {
                 const CarriedLoad expected = carried_load(spindle, tool);
                 const CarriedLoad stated = carried_load(as_stated(load_data(spindle, tool)));
                 EXPECT_NEAR(stated.mass_kg, expected.mass_kg, 1e-9);
@@ -45,7 +45,7 @@ TEST(CarriedLoad, OfOneCylinderIsThatOfTheFormula) {
     spindle.mass_kg = 12;
     spindle.body_radius = 100;
     spindle.body_length = 300;
-    CarvingTool tool;
+    CuttingTool tool;
     tool.mass_kg = 0;
     const CarriedLoad load = carried_load(spindle, tool);
     EXPECT_LT(norm(load.centre - Vec3{0, 0, -150}), 1e-9);

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "sim/replay/carve_foam.h"
-#include "sim/replay/stock/direction_frame.h"
+#include "sim/replay/mill_stock.h"
+#include "sim/replay/stock/tool_axis_frame.h"
 #include "tests/sim/replay/box_job.h"
 
 namespace qchopper {
@@ -33,7 +33,7 @@ class Lines {
     explicit Lines(double tilt_degrees) : job_(box_job("kr60-ha")), out_(tilted(tilt_degrees)) {
         job_.cell.machine->tools[1].flute_length = flute;
         scene_.cell = &job_.cell;
-        scene_.directions.push_back({out_, 0, {}});
+        scene_.orientations.push_back({out_, 0, {}});
         scene_.block = block;
         scene_.spoil = 300;
     }
@@ -57,8 +57,8 @@ class Lines {
         ParsedProgram names;
         names.files = {"lines"};
         FindingLog log(names);
-        Foam foam(block, {out_}, cell);
-        carve_foam(foam, path_, scene_, false, log, {});
+        StockModel stock_model(block, {out_}, cell);
+        mill_stock(stock_model, path_, scene_, false, log, {});
         return log.count(FindingKind::deep_cut);
     }
     // Height of the block's top over the point.
@@ -119,8 +119,9 @@ struct Section {
     double depth = 0;  // of all that it may touch
 };
 
-Section section_of(const Foam& foam, std::size_t direction, const Cutter& cutter, Vec3 from, Vec3 to, double size) {
-    const Pose& frame = foam.frame_in_block(direction);
+Section section_of(const StockModel& stock_model, std::size_t orientation, const Cutter& cutter, Vec3 from, Vec3 to,
+                   double size) {
+    const Pose& frame = stock_model.frame_in_block(orientation);
     const Vec3 a = apply_inverse(frame, from);
     const Vec3 move = apply_inverse(frame, to) - a;
     constexpr int places = 4000;
@@ -141,7 +142,7 @@ Section section_of(const Foam& foam, std::size_t direction, const Cutter& cutter
                 surface = std::min(surface, a.z + s * move.z + profile_height(cutter, r));
             }
             if (tip > 1e8) continue;
-            const auto column = foam.on_line(apply(frame, {x, y, 0}), rotate(frame, {0, 0, 1}), surface, 1000);
+            const auto column = stock_model.on_line(apply(frame, {x, y, 0}), rotate(frame, {0, 0, 1}), surface, 1000);
             if (column.empty()) continue;
             section.depth = std::max(section.depth, column.back().high - tip);
             const bool is_sure = nearest < radius - 0.05 && column.back().high - surface > 0.05;
@@ -159,15 +160,15 @@ TEST(DeepCutOfAMove, IsThatOfTheDefinition) {
     const auto point = [&] { return Vec3{-50 + 100 * in(random), -40 + 80 * in(random), 10 + 80 * in(random)}; };
     std::size_t touched = 0;
     for (int i = 0; i < 12; ++i) {
-        Foam foam(small, {{0, 0, 1}, tilted(50)}, size);
+        StockModel stock_model(small, {{0, 0, 1}, tilted(50)}, size);
         for (int k = 0; k < 6; ++k) {
-            const std::size_t direction = k % 2;
+            const std::size_t orientation = k % 2;
             const Cutter& cutter = in(random) < 0.5 ? flat : ball;
             const Vec3 from = point();
             Vec3 to = from + 0.3 * (point() - from);
-            if (k == 3) to = from - 15 * rotate(foam.frame_in_block(direction), {0, 0, 1});
-            const Section expected = section_of(foam, direction, cutter, from, to, size);
-            const CutResult cut = foam.cut(direction, cutter, 20, from, to);
+            if (k == 3) to = from - 15 * rotate(stock_model.frame_in_block(orientation), {0, 0, 1});
+            const Section expected = section_of(stock_model, orientation, cutter, from, to, size);
+            const CutResult cut = stock_model.cut(orientation, cutter, 20, from, to);
             if (cut.touches) ++touched;
             // Where the rim comes to a middle is known to one of 4000 places.
             EXPECT_GE(cut.depth, expected.sure - 0.05) << i << " " << k;

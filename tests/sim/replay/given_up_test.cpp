@@ -1,4 +1,4 @@
-// What must be carved follows from the piece, the directions of the setup and the tools of the cell, whatever the
+// What must be milled follows from the piece, the directions of the setup and the tools of the cell, whatever the
 // program does: a bar with a groove that only the finest ball enters, and a notch that only a tilted tool sees.
 
 #include <gtest/gtest.h>
@@ -32,35 +32,36 @@ struct Bar {
     Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
     TriangleMesh target = bar();
     ReplayScene scene;
-    Foam foam{{{-65, -30, -10}, {65, length + 30, tall + 5}}, {{0, 0, 1}, {std::sin(1.0), 0, std::cos(1.0)}}, 0.25};
+    StockModel stock_model{
+        {{-65, -30, -10}, {65, length + 30, tall + 5}}, {{0, 0, 1}, {std::sin(1.0), 0, std::cos(1.0)}}, 0.25};
 
-    // The top and all sides are carved with the flat tool, from above.
+    // The top and all sides are milled with the flat tool, from above.
     Bar() {
         scene.cell = &cell;
-        scene.directions = {{{0, 0, 1}, 0, {}}, {{std::sin(1.0), 0, std::cos(1.0)}, 0, {}}};
+        scene.orientations = {{{0, 0, 1}, 0, {}}, {{std::sin(1.0), 0, std::cos(1.0)}, 0, {}}};
         scene.chunks = {{"qc_1_001", flat_20, 0}, {"qc_1_002", ball_12, 0}};
-        scene.block = foam.block();
+        scene.block = stock_model.block();
         scene.target = &target;
         for (std::size_t t = 0; t < target.triangles.size(); ++t) {
             scene.is_base.push_back(area_vector(target, static_cast<std::uint32_t>(t)).z < 0 &&
                                     corners_of(target, static_cast<std::uint32_t>(t))[0].z == 0);
         }
         const Cutter flat = cutter_of(cell.machine->tools[1]);
-        for (double y = -20; y < length + 20; y += 8) foam.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});
+        for (double y = -20; y < length + 20; y += 8) stock_model.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});
         for (const double aside : {10.0, 25.0}) {
             const double x = 35 + aside;
-            for (const double side : {-x, x}) foam.cut(0, flat, 100, {side, -25, -2}, {side, length + 25, -2});
-            for (const double y : {-aside, length + aside}) foam.cut(0, flat, 100, {-60, y, -2}, {60, y, -2});
+            for (const double side : {-x, x}) stock_model.cut(0, flat, 100, {side, -25, -2}, {side, length + 25, -2});
+            for (const double y : {-aside, length + aside}) stock_model.cut(0, flat, 100, {-60, y, -2}, {60, y, -2});
         }
     }
-    void carve_groove() {
+    void mill_groove() {
         const Cutter ball = cutter_of(cell.machine->tools[3]);
         for (const double x : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-            foam.cut(0, ball, 100, {x, -10, groove_floor}, {x, length + 10, groove_floor});
+            stock_model.cut(0, ball, 100, {x, -10, groove_floor}, {x, length + 10, groove_floor});
         }
     }
     LeftoverFigures measured() const {
-        return measure_leftover(foam, scene, std::vector<float>(target.triangles.size(), 0), {}, {});
+        return measure_leftover(stock_model, scene, std::vector<float>(target.triangles.size(), 0), {}, {});
     }
     // Of the groove what a ball of 6 mm comes to within 0.4375 mm, all but 1.32 mm from its corners, less the upper
     // 0.75 mm of its walls, where the foam is within tolerance; the ball of 12 mm comes to the upper 0.57 mm.
@@ -81,24 +82,24 @@ TEST(GivenUp, IsWhatTheFinestToolOfTheCellReachesAndTheProgramDoesNotUse) {
     const LeftoverFigures left = bar.measured();
     ASSERT_EQ(left.given_up.size(), 1U);
     EXPECT_EQ(left.given_up[0].tool, ball_6);
-    EXPECT_EQ(left.given_up[0].direction, 0U);
+    EXPECT_EQ(left.given_up[0].orientation, 0U);
     EXPECT_NEAR(left.given_up_mm2(), bar.groove_mm2(), 0.2 * bar.groove_mm2());
     EXPECT_NEAR(left.within_mm2, left.reachable_mm2 - left.given_up_mm2(), 0.005 * left.area_mm2);
     EXPECT_TRUE(left.not_allowed.empty());
 }
 
-TEST(GivenUp, IsNothingWhereTheToolIsUsedOrTheSurfaceIsCarved) {
+TEST(GivenUp, IsNothingWhereTheToolIsUsedOrTheSurfaceIsMilled) {
     Bar used;
     used.scene.drilling = 1;
     used.scene.chunks.push_back({"qc_1_003", ball_6, 0});
     const LeftoverFigures kept = used.measured();
     EXPECT_TRUE(kept.given_up.empty());
     EXPECT_LT(kept.within_mm2, kept.reachable_mm2 - 0.8 * used.groove_mm2()) << "its foam speaks against the program";
-    Bar carved;
-    carved.scene.drilling = 1;
-    carved.carve_groove();
-    const LeftoverFigures clear = carved.measured();
-    EXPECT_LT(clear.given_up_mm2(), 0.01 * carved.groove_mm2());
+    Bar milled;
+    milled.scene.drilling = 1;
+    milled.mill_groove();
+    const LeftoverFigures clear = milled.measured();
+    EXPECT_LT(clear.given_up_mm2(), 0.01 * milled.groove_mm2());
     EXPECT_EQ(clear.reachable_mm2, kept.reachable_mm2) << "what is reachable does not depend on the program";
 }
 
@@ -117,10 +118,10 @@ TEST(GivenUp, ByOrderOfTheOperatorIsToldApart) {
 
 TEST(GivenUp, ADirectionOfTheSetupThatTheProgramDoesNotTake) {
     Bar bar;
-    bar.carve_groove();
+    bar.mill_groove();
     const LeftoverFigures left = bar.measured();
     ASSERT_FALSE(left.given_up.empty());
-    EXPECT_EQ(left.given_up[0].direction, 1U) << "the notch";
+    EXPECT_EQ(left.given_up[0].orientation, 1U) << "the notch";
     EXPECT_NEAR(left.given_up_mm2(), bar.notch_mm2(), 0.25 * bar.notch_mm2());
     bar.scene.chunks.push_back({"qc_1_003", ball_6, 1});
     EXPECT_LT(bar.measured().given_up_mm2(), 0.01 * left.given_up_mm2());
@@ -136,7 +137,7 @@ void expect_few_are_enough(double wall, std::size_t expected) {
     const TriangleMesh mesh = shapes::joined(meshes);
     ReplayScene scene;
     scene.cell = &cell;
-    scene.directions = {{{0, 0, 1}, 0, {}}};
+    scene.orientations = {{{0, 0, 1}, 0, {}}};
     scene.target = &mesh;
     Closings known(scene, 0.5);
     const std::vector<const Closing*> few = known.along(0, allowed_tools(scene), {});

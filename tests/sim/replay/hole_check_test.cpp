@@ -19,7 +19,7 @@ struct Holes {
 
     Holes() {
         scene.cell = &cell;
-        scene.directions = {{{0, 0, 1}, 0, {}}, {normalized({1, 0, 1}), 0, {}}};
+        scene.orientations = {{{0, 0, 1}, 0, {}}, {normalized({1, 0, 1}), 0, {}}};
         scene.holes = {{1, {0, 0, 40}, {0, 0, -1}, 8, 22, true, true},
                        {2, {30, 0, 40}, {0, 0, -1}, 6, 16, true, true},
                        {3, {60, 0, 40}, {0, 0, -1}, 6, 16, false, false},
@@ -99,7 +99,7 @@ TEST(HoleCheck, EachFaultHasItsKind) {
     aslant.from.x += 0.5;
     EXPECT_EQ(of.kinds({first, aslant}), "shifted_hole:17");
     TipLine leaning = second;
-    leaning.direction = 1;
+    leaning.orientation = 1;
     EXPECT_EQ(of.kinds({first, leaning}), "missing_hole:0 extra_hole:17");
 }
 

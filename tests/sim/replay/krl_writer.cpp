@@ -55,15 +55,15 @@ class Writer {
     static std::string head(const std::string& name) {
         return "&ACCESS RVP\r\n&REL 1\r\n&PARAM EDITMASK = *\r\nDEF " + name + "( )\r\n";
     }
-    const CarvingTool& tool(std::uint16_t number) const {
-        for (const CarvingTool& tool : machine_.tools) {
+    const CuttingTool& tool(std::uint16_t number) const {
+        for (const CuttingTool& tool : machine_.tools) {
             if (tool.number == number) return tool;
         }
         throw std::runtime_error("no such tool");
     }
-    std::optional<double> e1(std::size_t direction) const {
+    std::optional<double> e1(std::size_t orientation) const {
         if (!machine_.rotary_table) return std::nullopt;
-        return job_.directions[direction].table_angle;
+        return job_.orientations[orientation].table_angle;
     }
     std::string main_text() const;
     std::string load_text(const WrittenChunk& chunk) const;
@@ -92,7 +92,7 @@ std::string Writer::main_text() const {
         last = chunk.tool;
         text += name(i) + "( )\r\n";
     }
-    text += axes_text(machine_.start.joints, e1(job_.chunks.back().direction));
+    text += axes_text(machine_.start.joints, e1(job_.chunks.back().orientation));
     return text + "$OUT[1] = FALSE\r\n$OUT[2] = FALSE\r\n$APO.CDIS = 0\r\n$ADVANCE = 3\r\nEND\r\n";
 }
 
@@ -114,11 +114,11 @@ std::string Writer::load_text(const WrittenChunk& chunk) const {
 
 // As near as possible to the orientation that the tool has at home.
 Pose Writer::tip_in_setup(const WrittenChunk& chunk, Vec3 tip) const {
-    const SceneDirection& direction = job_.directions[chunk.direction];
+    const SceneOrientation& orientation = job_.orientations[chunk.orientation];
     const ToolArm arm = tool_arm(*machine_.robot, machine_.spindle, tool(chunk.tool));
     const Pose home = machine_.robot->base_in_cell * (forward(arm.geometry, machine_.start.joints) * arm.tip_in_flange);
-    const Vec3 z = -direction.out;
-    const Vec3 beside = rotate_inverse(direction.setup_in_cell, column(home, 0));
+    const Vec3 z = -orientation.tool_axis;
+    const Vec3 beside = rotate_inverse(orientation.setup_in_cell, column(home, 0));
     const Vec3 x = normalized(beside - dot(beside, z) * z);
     const Vec3 y = cross(z, x);
     return {{Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}}, tip};
@@ -126,7 +126,7 @@ Pose Writer::tip_in_setup(const WrittenChunk& chunk, Vec3 tip) const {
 
 Joints Writer::joints_at(const WrittenChunk& chunk) const {
     const ToolArm arm = tool_arm(*machine_.robot, machine_.spindle, tool(chunk.tool));
-    const Pose tip = job_.directions[chunk.direction].setup_in_cell * tip_in_setup(chunk, chunk.moves.front().tip);
+    const Pose tip = job_.orientations[chunk.orientation].setup_in_cell * tip_in_setup(chunk, chunk.moves.front().tip);
     const Pose flange = inverse(arm.base_in_cell) * (tip * inverse(arm.tip_in_flange));
     const Joints home = machine_.start.joints;
     double best = std::numeric_limits<double>::infinity();
@@ -141,20 +141,21 @@ Joints Writer::joints_at(const WrittenChunk& chunk) const {
 }
 
 std::string Writer::chunk_text(const WrittenChunk& chunk) const {
-    const CarvingTool& used = tool(chunk.tool);
-    const SceneDirection& direction = job_.directions[chunk.direction];
+    const CuttingTool& used = tool(chunk.tool);
+    const SceneOrientation& orientation = job_.orientations[chunk.orientation];
     const Pose& nose = machine_.spindle.spindle_in_flange;
     const Pose tool_frame{nose.row, nose.shift + gauge_length(used) * column(nose, 2)};
     std::string text = axis_text() + load_text(chunk);
     text += "$TOOL = " + frame_text(tool_frame, 3, 4) + "\r\n";
     if (machine_.rotary_table) {
-        const double angle = direction.table_angle;
+        const double angle = orientation.table_angle;
         const Pose turn{
             {Vec3{std::cos(angle), -std::sin(angle), 0}, Vec3{std::sin(angle), std::cos(angle), 0}, Vec3{0, 0, 1}}, {}};
-        const Pose in_table = inverse(machine_.rotary_table->table_in_cell * turn) * direction.setup_in_cell;
+        const Pose in_table = inverse(machine_.rotary_table->table_in_cell * turn) * orientation.setup_in_cell;
         text += "$BASE = EK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE," + frame_text(in_table, 3, 4) + ")\r\n";
     } else {
-        text += "$BASE = " + frame_text(inverse(machine_.robot->base_in_cell) * direction.setup_in_cell, 3, 4) + "\r\n";
+        text +=
+            "$BASE = " + frame_text(inverse(machine_.robot->base_in_cell) * orientation.setup_in_cell, 3, 4) + "\r\n";
     }
     text += "$APO.CDIS = " + fixed(job_.rounding, 2) + "\r\n$ACC.CP = " + fixed(job_.acceleration, 4) +
             "\r\n$VEL.ORI1 = 90.0\r\n$VEL.ORI2 = 90.0\r\n";
@@ -167,12 +168,12 @@ std::string Writer::chunk_text(const WrittenChunk& chunk) const {
         feed = wanted;
     };
     state_feed(chunk.moves.front().feed);
-    text += axes_text(joints_at(chunk), e1(chunk.direction));
+    text += axes_text(joints_at(chunk), e1(chunk.orientation));
     for (const WrittenMove& move : chunk.moves) {
         state_feed(move.feed);
         std::string target = frame_text(tip_in_setup(chunk, move.tip), 2, 3);
         if (is_first && machine_.rotary_table)
-            target.insert(target.size() - 1, ",E1 " + fixed(*e1(chunk.direction) * degrees, 3));
+            target.insert(target.size() - 1, ",E1 " + fixed(*e1(chunk.orientation) * degrees, 3));
         if (!is_first) target = target.substr(0, target.find(",A ")) + "}";
         text += "LIN " + target + (move.is_rounded ? " C_DIS" : "") + "\r\n";
         is_first = false;
@@ -191,7 +192,7 @@ std::vector<SceneChunk> chunks_of(const WrittenJob& job) {
     for (std::size_t i = 0; i < job.chunks.size(); ++i) {
         const std::string number = std::to_string(i + 1);
         chunks.push_back(
-            {"qc_1_" + std::string(3 - number.size(), '0') + number, job.chunks[i].tool, job.chunks[i].direction});
+            {"qc_1_" + std::string(3 - number.size(), '0') + number, job.chunks[i].tool, job.chunks[i].orientation});
     }
     return chunks;
 }

@@ -19,13 +19,13 @@ struct WrittenMove {
 
 struct WrittenChunk {
     std::uint16_t tool = 1;  // its number
-    std::size_t direction = 0;
+    std::size_t orientation = 0;
     double rpm = 15000;
     std::vector<WrittenMove> moves;  // the first is above the foam: a PTP leads there
 };
 
 struct WrittenJob {
-    std::vector<SceneDirection> directions;
+    std::vector<SceneOrientation> orientations;
     std::vector<WrittenChunk> chunks;
     double rounding = 2;
     double acceleration = 2;  // m/s2

@@ -17,14 +17,14 @@ TEST(ClosingOf, IsLimitedByHolderAndSpindleBesideATower) {
     Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
     cell.machine->spindle.body_radius = 60;
     cell.machine->spindle.body_offset = 0;
-    CarvingTool tool = cell.machine->tools[3];
+    CuttingTool tool = cell.machine->tools[3];
     tool.stick_out = 100;
     tool.holder = {{20, 50}, {32, 50}};
     const TriangleMesh mesh =
         shapes::joined({shapes::box({0, 0, 0}, {150, 150, 2}), shapes::box({0, 0, 2}, {10, 10, 300})});
     ReplayScene scene;
     scene.cell = &cell;
-    scene.directions.push_back({{0, 0, 1}, 0, {}});
+    scene.orientations.push_back({{0, 0, 1}, 0, {}});
     scene.target = &mesh;
     const SurfaceMap map = closing_of(scene, 0, tool, 0.5, {});
     const auto height_beside = [&](double mm) {

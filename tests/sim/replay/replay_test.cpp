@@ -29,7 +29,7 @@ TEST_P(Replay, AGoodProgramHasNoFindings) {
     EXPECT_LE(report.largest_gouge, 0.02);
     EXPECT_GT(report.share_reachable(), 0.99);
     EXPECT_GE(report.share_within(), 0.995);
-    EXPECT_GT(report.carving.removed_mm3, 1e4);
+    EXPECT_GT(report.milling.removed_mm3, 1e4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, Replay, testing::Values("kr60-ha", "kr120-r2500-pro-rotary"),

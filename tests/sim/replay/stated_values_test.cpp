@@ -204,7 +204,7 @@ TEST(StatedValues, AStartFromHomeThatIsNotFreeIsFound) {
     ProgramFiles files = job.files();
     add_line(files, last_chunk, "$VEL_AXIS[1]", ";start from home: free");
     EXPECT_TRUE(replayed(job, files).is_good);
-    // The first chunk has carved a pit in it, into which the tool does not come from home along a straight line.
+    // The first chunk has milled a pit in it, into which the tool does not come from home along a straight line.
     const Box large{{-200, -200, -10}, {200, 200, 400}};
     const ReplayReport report = replayed(job, files, &large);
     const auto found = std::find_if(report.findings.begin(), report.findings.end(),

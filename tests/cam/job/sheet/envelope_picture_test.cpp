@@ -52,9 +52,10 @@ TEST(EnvelopePicture, IsTheSameForAnyNumberOfThreads) {
 TEST(EnvelopePicture, ShowsThePose) {
     JobInput input = placed_job();
     const Bytes before = drawn(input);
-    auto& margins = input.work_envelope.margins;
-    const auto tightest = std::find_if(margins.begin(), margins.end(),
-                                       [&](const EnvelopeMargin& m) { return m == input.work_envelope.tightest(); });
+    auto& margins = input.machine_reachability.margins;
+    const auto tightest = std::find_if(margins.begin(), margins.end(), [&](const ReachabilityMargin& m) {
+        return m == input.machine_reachability.tightest();
+    });
     ASSERT_TRUE(tightest->pose.joints);
     (*tightest->pose.joints)[0] += 0.2;
     EXPECT_NE(drawn(input), before);
@@ -65,7 +66,7 @@ TEST(EnvelopePicture, ShowsThePose) {
 TEST(EnvelopeSection, HasARowForEveryCheckAndThePicture) {
     const JobInput input = placed_job();
     const std::string html = envelope_section(input);
-    for (const EnvelopeMargin& margin : input.work_envelope.margins) {
+    for (const ReachabilityMargin& margin : input.machine_reachability.margins) {
         EXPECT_NE(html.find(std::string("<td>") + rule_of(margin.check).name + "</td>"), std::string::npos);
     }
     EXPECT_NE(html.find("<img src=\"envelope.png\""), std::string::npos);
@@ -76,8 +77,8 @@ TEST(EnvelopeSection, HasARowForEveryCheckAndThePicture) {
 
 TEST(EnvelopeSection, AJobThatIsNotHeldMustNotStart) {
     JobInput input = placed_job();
-    input.work_envelope.margins.back().relative = -0.5;
-    input.work_envelope.margins.back().margin = -25;
+    input.machine_reachability.margins.back().relative = -0.5;
+    input.machine_reachability.margins.back().margin = -25;
     const std::string sheet = setup_sheet(input, 60);
     EXPECT_NE(sheet.find("DO NOT START: piece AB cannot be carved"), std::string::npos);
     EXPECT_EQ(setup_sheet(placed_job(), 60).find("DO NOT START"), std::string::npos);

@@ -102,7 +102,7 @@ TEST(SetupPicture, IsTheSameWithAnyNumberOfThreads) {
 TEST(SetupPicture, AnArrowMoreIsSeen) {
     JobInput input = tilting_job();
     const SetupPictures two = drawn(input);
-    input.setup.reach.directions.pop_back();
+    input.setup.access.orientations.pop_back();
     const SetupPictures one = drawn(input);
     EXPECT_NE(two.front, one.front);
     EXPECT_NE(two.back, one.back);

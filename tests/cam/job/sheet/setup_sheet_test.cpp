@@ -140,7 +140,7 @@ TEST(SetupSheet, HasOneFigureForWhatIsOutOfReach) {
 
 TEST(SetupSheet, ListsTheToolsThatTheProgramTakesAndNoOther) {
     JobInput input = tilting_job();
-    CarvingTool third = input.cell.machine->tools[0];
+    CuttingTool third = input.cell.machine->tools[0];
     third.number = 9;
     third.name = "left in the rack";
     input.cell.machine->tools.push_back(third);
@@ -240,7 +240,7 @@ TEST(SetupSheet, SaysHowExactlyTheBlockMustLie) {
 
 TEST(SetupSheet, SaysDoNotStart) {
     JobInput input = some_job();
-    input.envelope.margins[0].mm = -12;
+    input.stock_fit.margins[0].mm = -12;
     expect_words(setup_sheet(input, some_time_s), {"DO NOT START: piece AB does not fit: 12 mm too long"});
 }
 
@@ -255,7 +255,7 @@ TEST(SetupSheet, EveryTextIsEscaped) {
     input.setup.warnings = {evil};
     input.warnings = {evil};
     input.alternatives[0].base_description = evil;
-    input.envelope.margins[0] = {evil, evil, -1};
+    input.stock_fit.margins[0] = {evil, evil, -1};
     input.program_version = evil;
     for (const std::string& sheet : {setup_sheet(input, some_time_s), sheet_details(input)}) {
         EXPECT_EQ(sheet.find("<script"), std::string::npos);

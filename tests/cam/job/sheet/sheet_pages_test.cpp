@@ -67,7 +67,7 @@ std::size_t pages_of(const fs::path& html, const Folder& folder) {
 JobInput long_job() {
     JobInput input = placed_job();
     input.max_unreachable = 0.02;
-    input.setup.reach = some_reach(input);
+    input.setup.access = some_access(input);
     input.setup.spoil = 12;
     input.setup.block.is_sawn = true;
     input.setup.block.offcuts = {{339.5, 300.5, 60.5}, {58.5, 241.5, 60.5}, {58.5, 56.5, 13.5}};
@@ -88,7 +88,7 @@ JobInput long_job() {
     program.stock = {1};
     program.findings = {std::string(500, 'x')};
     for (const std::string& name : program.program.files) program.texts[name] = "DEF\r\nEND\r\n";
-    std::vector<CarvingTool>& tools = input.cell.machine->tools;
+    std::vector<CuttingTool>& tools = input.cell.machine->tools;
     while (tools.size() < 6) tools.push_back(tools.front());
     for (std::size_t i = 0; i < tools.size(); ++i) {
         tools[i].number = static_cast<std::uint16_t>(i + 1);

@@ -1,4 +1,4 @@
-// The work envelope of setups: what refuses them, what cures them, and where the block goes.
+// The work envelope of setups: what refuses them, what remedies them, and where the block goes.
 
 #include "cam/setup/placement/place_block.h"
 
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "cam/cell/reach_map.h"
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
 #include "cam/setup/placement/place_score.h"
 #include "tests/cam/setup/random_setups.h"
 #include "tests/reference/cam/setup/holds_at_placement.h"
@@ -21,7 +21,7 @@ namespace {
 
 using test_setups::box_setup;
 using test_setups::BoxSetup;
-using test_setups::out;
+using test_setups::tool_axis;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr Vec3 up{0, 0, 1};
@@ -39,21 +39,21 @@ std::vector<Cell> ready_cells() {
             ready_cell("gantry-3axis.toml")};
 }
 
-WorkEnvelope at_placement(const BoxSetup& s, const Cell& cell) {
+MachineReachability at_placement(const BoxSetup& s, const Cell& cell) {
     PlacementOptions options;
     options.is_searched = false;
     return place_block(s.setup, s.mesh, cell, options);
 }
 
-WorkEnvelope at_placement(const Setup& setup, const std::vector<DirectionPoses>& poses, const Cell& cell) {
+MachineReachability at_placement(const Setup& setup, const std::vector<OrientationPoses>& poses, const Cell& cell) {
     PlacementOptions options;
     options.is_searched = false;
     return place_block(setup, poses, cell, options);
 }
 
-std::vector<std::string> refusing(const WorkEnvelope& envelope) {
+std::vector<std::string> refusing(const MachineReachability& reachability) {
     std::vector<std::string> keys;
-    for (const EnvelopeMargin& margin : envelope.margins) {
+    for (const ReachabilityMargin& margin : reachability.margins) {
         if (margin.relative < -1e-9) keys.emplace_back(rule_of(margin.check).key);
     }
     return keys;
@@ -62,8 +62,8 @@ std::vector<std::string> refusing(const WorkEnvelope& envelope) {
 using Keys = std::vector<std::string>;
 
 // Poses of the tip in the cell, with the tool pointing one way, as the poses of a setup at its placement.
-std::vector<DirectionPoses> poses_in_cell(const Setup& setup, const Cell& cell, Vec3 way_out,
-                                          const std::vector<Vec3>& tips) {
+std::vector<OrientationPoses> poses_in_cell(const Setup& setup, const Cell& cell, Vec3 way_out,
+                                            const std::vector<Vec3>& tips) {
     const Pose cell_in_setup = inverse(setup_in_cell(cell, setup.spoil, setup.placement, 0));
     PoseRegion region;
     for (const Vec3& tip : tips) {
@@ -81,12 +81,12 @@ BoxSetup small_box(const Cell& cell) {
 TEST(PlaceBlock, HoldsASmallBoxInEveryReadyCell) {
     for (const Cell& cell : ready_cells()) {
         const BoxSetup s = small_box(cell);
-        const WorkEnvelope envelope = place_block(s.setup, s.mesh, cell);
-        EXPECT_TRUE(envelope.is_arm_checked);
-        EXPECT_TRUE(envelope.holds()) << cell.name << ": " << describe_work_envelope("A", envelope);
+        const MachineReachability reachability = place_block(s.setup, s.mesh, cell);
+        EXPECT_TRUE(reachability.is_arm_checked);
+        EXPECT_TRUE(reachability.holds()) << cell.name << ": " << describe_reachability("A", reachability);
         EXPECT_TRUE(fits_machine(s.setup, s.mesh, cell)) << cell.name;
-        EXPECT_GE(inside_table(cell, s.setup.block.size, envelope.placement), 0);
-        EXPECT_GT(envelope.poses, 50U);
+        EXPECT_GE(inside_table(cell, s.setup.block.size, reachability.placement), 0);
+        EXPECT_GT(reachability.poses, 50U);
     }
 }
 
@@ -94,9 +94,9 @@ TEST(PlaceBlock, ChecksNoArmInACellOfVersion1) {
     const Cell cell = ready_cell("foam-1.toml");
     BoxSetup s;
     s.mesh = shapes::box({0, 0, 0}, {10, 10, 10});
-    const WorkEnvelope envelope = place_block(s.setup, s.mesh, cell);
-    EXPECT_FALSE(envelope.is_arm_checked);
-    EXPECT_EQ(describe_work_envelope("A", envelope), "piece A: arm not checked");
+    const MachineReachability reachability = place_block(s.setup, s.mesh, cell);
+    EXPECT_FALSE(reachability.is_arm_checked);
+    EXPECT_EQ(describe_reachability("A", reachability), "piece A: arm not checked");
     EXPECT_TRUE(fits_machine(s.setup, s.mesh, cell));
 }
 
@@ -112,20 +112,20 @@ TEST(PlaceBlock, RefusesWhatTheCablesDoNotAllow) {
     Cell cell = kr60();
     const BoxSetup s = small_box(cell);
     cell.machine->robot->cable->axis_6 = {-5 * degree, 5 * degree};
-    const WorkEnvelope envelope = at_placement(s, cell);
-    EXPECT_EQ(refusing(envelope), Keys{"cable"});
-    EXPECT_EQ(envelope.tightest().pair.substr(0, 6), "axis 6");
+    const MachineReachability reachability = at_placement(s, cell);
+    EXPECT_EQ(refusing(reachability), Keys{"cable"});
+    EXPECT_EQ(reachability.tightest().pair.substr(0, 6), "axis 6");
 }
 
 TEST(PlaceBlock, RefusesASpeedThatAJointDoesNotHave) {
     Cell cell = kr60();
     const BoxSetup s = small_box(cell);
-    for (CarvingTool& tool : cell.machine->tools) tool.feed_max_mm_per_s = 1300;
-    const WorkEnvelope envelope = at_placement(s, cell);
-    EXPECT_EQ(refusing(envelope), Keys{"joint_speed"}) << describe_work_envelope("A", envelope);
+    for (CuttingTool& tool : cell.machine->tools) tool.feed_max_mm_per_s = 1300;
+    const MachineReachability reachability = at_placement(s, cell);
+    EXPECT_EQ(refusing(reachability), Keys{"joint_speed"}) << describe_reachability("A", reachability);
 }
 
-TEST(PlaceBlock, RefusesABranchThatChangesInTheMiddleOfARegion) {
+TEST(PlaceBlock, RefusesAConfigurationThatChangesInTheMiddleOfARegion) {
     Cell cell = kr60();
     Robot& robot = *cell.machine->robot;
     robot.ranges[0].min = -60 * degree;
@@ -143,8 +143,8 @@ TEST(PlaceBlock, RefusesABranchThatChangesInTheMiddleOfARegion) {
     const auto whole = at_placement(s.setup, poses_in_cell(s.setup, cell, way_out, tips(-200, 200)), cell);
     EXPECT_FALSE(whole.holds());
     const Keys keys = refusing(whole);
-    EXPECT_NE(std::find(keys.begin(), keys.end(), "one_branch"), keys.end()) << describe_work_envelope("A", whole);
-    // Both halves are held, each by a branch of its own.
+    EXPECT_NE(std::find(keys.begin(), keys.end(), "one_branch"), keys.end()) << describe_reachability("A", whole);
+    // Both halves are held, each by a configuration of its own.
     bool flipped[2] = {false, false};
     int half = 0;
     double middle = 1e9;
@@ -153,8 +153,8 @@ TEST(PlaceBlock, RefusesABranchThatChangesInTheMiddleOfARegion) {
         const auto higher = at_placement(s.setup, poses_in_cell(s.setup, cell, way_out, tips(y + 20, 200)), cell);
         if (!lower.holds() || !higher.holds()) continue;
         middle = y;
-        flipped[half++] = lower.regions.front().branch.is_wrist_flipped;
-        flipped[half] = higher.regions.front().branch.is_wrist_flipped;
+        flipped[half++] = lower.regions.front().configuration.is_wrist_flipped;
+        flipped[half] = higher.regions.front().configuration.is_wrist_flipped;
     }
     ASSERT_LT(middle, 1e8);
     EXPECT_NE(flipped[0], flipped[1]);
@@ -166,7 +166,7 @@ TEST(PlaceBlock, RefusesAWristSingularityOnThePath) {
     robot.ranges[0].min = -60 * degree;  // so that the arm does not bend backwards instead
     robot.ranges[0].max = 60 * degree;
     robot.ranges[2].min = 60 * degree;  // nor the elbow
-    const CarvingTool& tool = longest_tool(cell.machine->tools);
+    const CuttingTool& tool = longest_tool(cell.machine->tools);
     const ToolArm arm = tool_arm(robot, cell.machine->spindle, tool);
     const BoxSetup s = small_box(cell);
     const Pose tip =
@@ -177,12 +177,12 @@ TEST(PlaceBlock, RefusesAWristSingularityOnThePath) {
     std::vector<Vec3> path;
     for (double y = -300; y <= 300; y += 20) path.push_back(tip.shift + 60 * beside + Vec3{0, y, 0});
     const auto refused = at_placement(s.setup, poses_in_cell(s.setup, cell, way_out, path), cell);
-    EXPECT_EQ(refusing(refused), Keys{"wrist"}) << describe_work_envelope("A", refused);
+    EXPECT_EQ(refusing(refused), Keys{"wrist"}) << describe_reachability("A", refused);
     EXPECT_EQ(refused.tightest().pair, "axes 4 and 6 in line");
     // Its ends are held.
     const std::vector<Vec3> end(path.end() - 5, path.end());
     const auto held = at_placement(s.setup, poses_in_cell(s.setup, cell, way_out, end), cell);
-    EXPECT_TRUE(held.holds()) << describe_work_envelope("A", held);
+    EXPECT_TRUE(held.holds()) << describe_reachability("A", held);
 }
 
 TEST(PlaceBlock, RefusesAHolderInTheBlock) {
@@ -192,23 +192,23 @@ TEST(PlaceBlock, RefusesAHolderInTheBlock) {
     s.setup.block.size.z += 140;
     const Pose in_cell = setup_in_cell(cell, s.setup.spoil, {}, 0);
     const auto tilted = [&](double tip_z) {
-        return poses_in_cell(s.setup, cell, out(75, 180), {apply(in_cell, {-60, 0, tip_z})});
+        return poses_in_cell(s.setup, cell, tool_axis(75, 180), {apply(in_cell, {-60, 0, tip_z})});
     };
     EXPECT_TRUE(at_placement(s.setup, tilted(60), cell).holds())
-        << describe_work_envelope("A", at_placement(s.setup, tilted(60), cell));
+        << describe_reachability("A", at_placement(s.setup, tilted(60), cell));
     EXPECT_EQ(refusing(at_placement(s.setup, tilted(20), cell)), Keys{"holder_to_block"});
 }
 
 TEST(PlaceBlock, RefusesAnArmInAnObstacle) {
     Cell cell = kr60();
     const BoxSetup s = small_box(cell);
-    const WorkEnvelope before = at_placement(s, cell);
+    const MachineReachability before = at_placement(s, cell);
     cell.machine->obstacles.push_back({"beam", {{-300, -1500, 1650}, {1600, 1500, 1700}}});
-    const WorkEnvelope after = at_placement(s, cell);
+    const MachineReachability after = at_placement(s, cell);
     EXPECT_TRUE(before.holds());
     const Keys keys = refusing(after);
     EXPECT_NE(std::find(keys.begin(), keys.end(), "arm_to_obstacle"), keys.end());
-    EXPECT_NE(after.tightest().pair.find("the obstacle beam"), std::string::npos) << describe_work_envelope("A", after);
+    EXPECT_NE(after.tightest().pair.find("the obstacle beam"), std::string::npos) << describe_reachability("A", after);
 }
 
 TEST(PlaceBlock, RefusesASpindleInAnObstacle) {
@@ -216,8 +216,8 @@ TEST(PlaceBlock, RefusesASpindleInAnObstacle) {
     const BoxSetup s = small_box(cell);
     // Beside the spindle, below the arm.
     cell.machine->obstacles.push_back({"clamp", {{1270, -60, 640}, {1300, 60, 660}}});
-    const WorkEnvelope after = at_placement(s, cell);
-    EXPECT_EQ(refusing(after), Keys{"tool_to_obstacle"}) << describe_work_envelope("A", after);
+    const MachineReachability after = at_placement(s, cell);
+    EXPECT_EQ(refusing(after), Keys{"tool_to_obstacle"}) << describe_reachability("A", after);
 }
 
 TEST(PlaceBlock, RefusesAnArmInTheBlock) {
@@ -225,9 +225,9 @@ TEST(PlaceBlock, RefusesAnArmInTheBlock) {
     const BoxSetup s = box_setup(cell, {300, 300, 700}, {up});
     const Pose in_cell = setup_in_cell(cell, s.setup.spoil, {}, 0);
     const auto deep = poses_in_cell(s.setup, cell, up, {apply(in_cell, {0, 0, 5})});
-    const WorkEnvelope envelope = at_placement(s.setup, deep, cell);
-    EXPECT_EQ(refusing(envelope), Keys{"arm_to_block"}) << describe_work_envelope("A", envelope);
-    EXPECT_EQ(envelope.cure, EnvelopeCure::base);
+    const MachineReachability reachability = at_placement(s.setup, deep, cell);
+    EXPECT_EQ(refusing(reachability), Keys{"arm_to_block"}) << describe_reachability("A", reachability);
+    EXPECT_EQ(reachability.remedy, Remedy::base);
     const auto high = poses_in_cell(s.setup, cell, up, {apply(in_cell, {0, 0, 500})});
     EXPECT_TRUE(at_placement(s.setup, high, cell).holds());
 }
@@ -235,18 +235,18 @@ TEST(PlaceBlock, RefusesAnArmInTheBlock) {
 TEST(PlaceBlock, RefusesWhatIsOutOfReach) {
     const Cell cell = kr60();
     const BoxSetup s = small_box(cell);
-    const auto envelope = at_placement(s.setup, poses_in_cell(s.setup, cell, up, {{2600, 0, 500}}), cell);
-    EXPECT_EQ(refusing(envelope), Keys{"reach"});
-    EXPECT_LT(envelope.tightest().margin, -100);
+    const auto reachability = at_placement(s.setup, poses_in_cell(s.setup, cell, up, {{2600, 0, 500}}), cell);
+    EXPECT_EQ(refusing(reachability), Keys{"reach"});
+    EXPECT_LT(reachability.tightest().margin, -100);
 }
 
 TEST(PlaceBlock, RefusesABlockThatIsLargerThanTheTable) {
     const Cell cell = kr60();
     const BoxSetup s = box_setup(cell, {720, 300, 80}, {up});
-    const WorkEnvelope envelope = place_block(s.setup, s.mesh, cell);
-    const WorkEnvelope turned = place_block(box_setup(cell, {1100, 300, 80}, {up}).setup, s.mesh, cell);
-    EXPECT_TRUE(envelope.holds()) << describe_work_envelope("A", envelope);  // it is turned
-    EXPECT_GE(static_cast<int>(envelope.cure), static_cast<int>(EnvelopeCure::block_shift));
+    const MachineReachability reachability = place_block(s.setup, s.mesh, cell);
+    const MachineReachability turned = place_block(box_setup(cell, {1100, 300, 80}, {up}).setup, s.mesh, cell);
+    EXPECT_TRUE(reachability.holds()) << describe_reachability("A", reachability);  // it is turned
+    EXPECT_GE(static_cast<int>(reachability.remedy), static_cast<int>(Remedy::block_shift));
     EXPECT_FALSE(turned.holds());
     EXPECT_EQ(refusing(turned).front(), "block_on_table");
 }
@@ -255,7 +255,7 @@ TEST(PlaceBlock, RefusesTheTravelOfAGantry) {
     Cell cell = ready_cell("gantry-3axis.toml");
     const BoxSetup s = box_setup(cell, {500, 500, 890}, {up});
     EXPECT_EQ(refusing(place_block(s.setup, s.mesh, cell)), Keys{"travel"});
-    const BoxSetup tilted = box_setup(cell, {100, 100, 100}, {up, out(20, 0)});
+    const BoxSetup tilted = box_setup(cell, {100, 100, 100}, {up, tool_axis(20, 0)});
     EXPECT_EQ(refusing(place_block(tilted.setup, tilted.mesh, cell)), Keys{"travel"});
 }
 
@@ -263,35 +263,35 @@ TEST(PlaceBlock, ShiftsTheBlockAwayFromAnObstacle) {
     Cell cell = ready_cell("gantry-3axis.toml");
     const BoxSetup s = small_box(cell);
     cell.machine->obstacles.push_back({"post", {{1450, 950, 0}, {1550, 1050, 900}}});
-    const WorkEnvelope envelope = place_block(s.setup, s.mesh, cell);
-    EXPECT_TRUE(envelope.holds());
-    EXPECT_EQ(envelope.cure, EnvelopeCure::block_shift);
-    EXPECT_GT(std::hypot(envelope.placement.x, envelope.placement.y), 100);
+    const MachineReachability reachability = place_block(s.setup, s.mesh, cell);
+    EXPECT_TRUE(reachability.holds());
+    EXPECT_EQ(reachability.remedy, Remedy::block_shift);
+    EXPECT_GT(std::hypot(reachability.placement.x, reachability.placement.y), 100);
 }
 
 TEST(PlaceBlock, TurnsARotaryTableForADirection) {
     const Cell cell = ready_cell("kr120-r2500-pro-rotary.toml");
-    const BoxSetup s = box_setup(cell, {300, 300, 200}, {up, out(45, 0), out(45, 180)});
-    const WorkEnvelope envelope = place_block(s.setup, s.mesh, cell);
-    EXPECT_TRUE(envelope.holds()) << describe_work_envelope("A", envelope);
-    ASSERT_EQ(envelope.placement.table_angles.size(), 3U);
-    const double between =
-        std::abs(std::remainder(envelope.placement.table_angles[1] - envelope.placement.table_angles[2], 360 * degree));
+    const BoxSetup s = box_setup(cell, {300, 300, 200}, {up, tool_axis(45, 0), tool_axis(45, 180)});
+    const MachineReachability reachability = place_block(s.setup, s.mesh, cell);
+    EXPECT_TRUE(reachability.holds()) << describe_reachability("A", reachability);
+    ASSERT_EQ(reachability.placement.table_angles.size(), 3U);
+    const double between = std::abs(
+        std::remainder(reachability.placement.table_angles[1] - reachability.placement.table_angles[2], 360 * degree));
     EXPECT_GT(between, 90 * degree);  // opposite directions are turned to the same side of the robot
 }
 
-// The best score of a region over all branches and turns about the tool axis so many degrees apart.
-double best_by_trying(const Cell& cell, const BoxSetup& s, const DirectionPoses& direction, const PoseRegion& region,
-                      double step_deg) {
+// The best score of a region over all configurations and turns about the tool axis so many degrees apart.
+double best_by_trying(const Cell& cell, const BoxSetup& s, const OrientationPoses& orientation,
+                      const PoseRegion& region, double step_deg) {
     PoseJudge judge(cell, longest_tool(cell.machine->tools));
     const StandingBlock block =
         judge.standing(setup_in_cell(cell, s.setup.spoil, s.setup.placement, 0), s.setup.block_box());
     double best = -1e9;
-    for (const ArmBranch& branch : all_branches()) {
+    for (const ArmConfiguration& configuration : all_configurations()) {
         for (double turn = 0; turn < 360; turn += step_deg) {
             MarginTally tally;
-            RegionHold hold{branch, turn * degree, false};
-            judge.judge(block, direction.out, region, region.poses.size(), hold, -1e9, tally);
+            ArmPosture posture{configuration, turn * degree, false};
+            judge.judge(block, orientation.tool_axis, region, region.poses.size(), posture, -1e9, tally);
             best = std::max(best, tally.score());
         }
     }
@@ -306,16 +306,16 @@ TEST(PlaceBlock, TurnsTheToolAboutItsAxisAsWellAsCanBe) {
             cell.machine->spindle.spindle_in_flange = {{Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}}, {250, 0, 90}};
         }
         const BoxSetup s = box_setup(cell, {200, 250, 100}, {up});
-        const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, {.step = 50});
-        const WorkEnvelope envelope = at_placement(s.setup, poses, cell);
-        ASSERT_EQ(envelope.regions.size(), poses[0].regions.size());
-        for (std::size_t r = 0; r < envelope.regions.size(); ++r) {
+        const std::vector<OrientationPoses> poses = milling_poses(s.setup, s.mesh, cell, {.step = 50});
+        const MachineReachability reachability = at_placement(s.setup, poses, cell);
+        ASSERT_EQ(reachability.regions.size(), poses[0].regions.size());
+        for (std::size_t r = 0; r < reachability.regions.size(); ++r) {
             const PoseRegion& region = poses[0].regions[r];
             const double tried = best_by_trying(cell, s, poses[0], region, is_across ? 10 : 2);
-            EXPECT_GE(envelope.regions[r].relative, tried - 1e-6);
-            EXPECT_EQ(envelope.regions[r].holds, envelope.regions[r].relative >= 0);
+            EXPECT_GE(reachability.regions[r].relative, tried - 1e-6);
+            EXPECT_EQ(reachability.regions[r].holds, reachability.regions[r].relative >= 0);
         }
-        EXPECT_TRUE(envelope.holds()) << describe_work_envelope("A", envelope);
+        EXPECT_TRUE(reachability.holds()) << describe_reachability("A", reachability);
     }
 }
 
@@ -325,9 +325,9 @@ TEST(PlaceBlock, IsNeverWorseThanTheMiddleOfTheTable) {
     for (const Cell& cell : ready_cells()) {
         for (int i = 0; i < 5; ++i) {
             const BoxSetup s = test_setups::random_setup(cell, random);
-            const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, {.step = 50});
-            const WorkEnvelope middle = at_placement(s.setup, poses, cell);
-            const WorkEnvelope best = place_block(s.setup, poses, cell);
+            const std::vector<OrientationPoses> poses = milling_poses(s.setup, s.mesh, cell, {.step = 50});
+            const MachineReachability middle = at_placement(s.setup, poses, cell);
+            const MachineReachability best = place_block(s.setup, poses, cell);
             EXPECT_TRUE(best.holds() || !middle.holds());
             if (!middle.holds()) continue;
             EXPECT_GE(best.tightest().relative, middle.tightest().relative - 1e-6) << cell.name;
@@ -345,7 +345,7 @@ Cell turned_by_a_quarter(Cell cell) {
     machine.robot->base_in_cell = quarter * machine.robot->base_in_cell;
     if (machine.rotary_table) machine.rotary_table->table_in_cell = quarter * machine.rotary_table->table_in_cell;
     for (Obstacle& obstacle : machine.obstacles) obstacle.box = box(obstacle.box);
-    cell.reach = box(cell.reach);
+    cell.workspace = box(cell.workspace);
     cell.table = {-cell.table.centre_y, cell.table.centre_x, cell.table.size_y, cell.table.size_x, cell.table.height};
     return cell;
 }
@@ -354,12 +354,12 @@ TEST(PlaceBlock, IsTheSameWhenCellAndSetupAreTurned) {
     for (Cell cell : ready_cells()) {
         if (!cell.machine->robot) continue;
         cell.machine->obstacles.push_back({"post", {{1000, 700, 0}, {1100, 800, 1500}}});
-        BoxSetup s = box_setup(cell, {200, 250, 150}, {up, out(25, 40)});
+        BoxSetup s = box_setup(cell, {200, 250, 150}, {up, tool_axis(25, 40)});
         s.setup.placement = {40, -30, 0.2, {}};
         if (cell.machine->rotary_table) s.setup.placement.table_angles = {0.5, 1.5};
-        const WorkEnvelope before = at_placement(s, cell);
+        const MachineReachability before = at_placement(s, cell);
         if (!cell.machine->rotary_table) s.setup.placement = {30, 40, 0.2 + 90 * degree, {}};
-        const WorkEnvelope after = at_placement(s, turned_by_a_quarter(cell));
+        const MachineReachability after = at_placement(s, turned_by_a_quarter(cell));
         ASSERT_EQ(before.margins.size(), after.margins.size());
         for (std::size_t i = 0; i < before.margins.size(); ++i) {
             EXPECT_EQ(before.margins[i].check, after.margins[i].check);
@@ -379,10 +379,10 @@ TEST(PlaceBlock, MoreLimitsNeverHoldMorePoses) {
     for (int i = 0; i < 60; ++i) {
         Cell wide = kr60();
         const BoxSetup s = box_setup(wide, {number(100, 400), number(100, 600), number(50, 300)},
-                                     {up, out(number(0, 40), number(0, 360))});
+                                     {up, tool_axis(number(0, 40), number(0, 360))});
         PoseOptions coarse;
         coarse.extremes_only = true;
-        const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, wide, coarse);
+        const std::vector<OrientationPoses> poses = milling_poses(s.setup, s.mesh, wide, coarse);
         Cell narrow = wide;
         Robot& robot = *narrow.machine->robot;
         const auto axis = static_cast<std::size_t>(number(0, 6));
@@ -412,13 +412,13 @@ TEST(PlaceBlock, FindsAPlaceWhereAScanDoes) {
             const BoxSetup s = test_setups::random_setup(cell, random);
             PlacementOptions options;
             options.poses.step = 50;
-            const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, options.poses);
-            const WorkEnvelope envelope = place_block(s.setup, poses, cell, options);
-            EXPECT_EQ(envelope.holds(), envelope.tightest().relative >= -1e-9);
-            (envelope.holds() ? found : refused) += 1;
-            if (envelope.holds()) {
+            const std::vector<OrientationPoses> poses = milling_poses(s.setup, s.mesh, cell, options.poses);
+            const MachineReachability reachability = place_block(s.setup, poses, cell, options);
+            EXPECT_EQ(reachability.holds(), reachability.tightest().relative >= -1e-9);
+            (reachability.holds() ? found : refused) += 1;
+            if (reachability.holds()) {
                 qchopper::Setup placed = s.setup;
-                placed.placement = envelope.placement;
+                placed.placement = reachability.placement;
                 EXPECT_TRUE(holds_at_placement(placed, poses, cell)) << cell.name << " " << i;
                 EXPECT_TRUE(fits_machine(s.setup, s.mesh, cell)) << cell.name << " " << i;
             } else {

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "cam/setup/block_placement.h"
-#include "cam/setup/holder_limit.h"
+#include "cam/setup/holder_clearance.h"
 
 namespace qchopper {
 namespace {
@@ -126,10 +126,10 @@ using PlainMargins = std::array<double, pose_checks>;
 
 class PlainJudge {
  public:
-    PlainJudge(const Cell& cell, const CarvingTool& tool, const StandingBlock& block)
+    PlainJudge(const Cell& cell, const CuttingTool& tool, const StandingBlock& block)
         : cell_(cell), machine_(*cell.machine), robot_(*machine_.robot), tool_(tool), block_(block) {}
 
-    PlainMargins judge(const Joints& given, Vec3 tip_in_setup, Vec3 out_in_setup) {
+    PlainMargins judge(const Joints& given, Vec3 tip_in_setup, Vec3 tool_axis_in_setup) {
         margins_.fill(1e9);
         Joints q = given;
         for (std::size_t axis = 0; axis < 6; ++axis) q[axis] = best_turn(robot_.ranges[axis], q[axis]);
@@ -141,13 +141,14 @@ class PlainJudge {
         bodies();
         arm();
         tool();
-        const double sine = std::hypot(out_in_setup.x, out_in_setup.y);
+        const double sine = std::hypot(tool_axis_in_setup.x, tool_axis_in_setup.y);
         double above = tool_.stick_out;
         for (const HolderStep& step : tool_.holder) {
-            keep(PoseCheck::holder_to_block, tip_in_setup.z + above * out_in_setup.z - sine * step.diameter / 2);
+            keep(PoseCheck::holder_to_block, tip_in_setup.z + above * tool_axis_in_setup.z - sine * step.diameter / 2);
             above += step.length;
         }
-        keep(PoseCheck::holder_to_block, tip_in_setup.z + above * out_in_setup.z - sine * machine_.spindle.body_radius);
+        keep(PoseCheck::holder_to_block,
+             tip_in_setup.z + above * tool_axis_in_setup.z - sine * machine_.spindle.body_radius);
         return margins_;
     }
 
@@ -313,7 +314,7 @@ class PlainJudge {
     const Cell& cell_;
     const CellMachine& machine_;
     const Robot& robot_;
-    const CarvingTool& tool_;
+    const CuttingTool& tool_;
     const StandingBlock& block_;
     std::array<Pose, 7> frames_;
     std::vector<PlainBody> links_;
@@ -347,7 +348,7 @@ struct Verdicts {
 
 // Poses over the table, as far as joints hold them.
 void compare(const Cell& cell, int count, std::mt19937& random, Verdicts& verdicts) {
-    const CarvingTool& tool = longest_tool(cell.machine->tools);
+    const CuttingTool& tool = longest_tool(cell.machine->tools);
     PoseJudge judge(cell, tool);
     const Robot& robot = *cell.machine->robot;
     const ToolArm arm = tool_arm(robot, cell.machine->spindle, tool);
@@ -357,11 +358,11 @@ void compare(const Cell& cell, int count, std::mt19937& random, Verdicts& verdic
     for (int done = 0; done < count;) {
         const double z = 0.2 + 0.8 * unit(random);
         const double a = 2 * pi * unit(random);
-        const Vec3 out{std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z};
+        const Vec3 tool_axis{std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z};
         const Vec3 tip{900 * (unit(random) - 0.5), 900 * (unit(random) - 0.5), 500 * unit(random) - 30};
         const double turn = 2 * pi * unit(random) - pi;
         const Pose flange =
-            inverse(robot.base_in_cell) * setup * tip_frame(tip, out, turn) * inverse(arm.tip_in_flange);
+            inverse(robot.base_in_cell) * setup * tip_frame(tip, tool_axis, turn) * inverse(arm.tip_in_flange);
         const ArmAnswers answers = inverse(robot.geometry, flange);
         if (answers.empty()) continue;
         const ArmAnswer& answer = answers[static_cast<std::size_t>(done) % answers.size()];
@@ -370,10 +371,10 @@ void compare(const Cell& cell, int count, std::mt19937& random, Verdicts& verdic
         ASSERT_LT(norm(plain.shift - flange.shift), 1e-5);
         ++done;
         MarginTally tally;
-        RegionHold hold{answer.branch, turn, false};
+        ArmPosture posture{answer.configuration, turn, false};
         const PoseRegion region{{{PoseKind::tip, tip, 0}}, 1};
-        judge.judge(block, out, region, 1, hold, -1e9, tally);
-        const PlainMargins expected = PlainJudge(cell, tool, block).judge(answer.joints, tip, out);
+        judge.judge(block, tool_axis, region, 1, posture, -1e9, tally);
+        const PlainMargins expected = PlainJudge(cell, tool, block).judge(answer.joints, tip, tool_axis);
         bool is_held = true;
         bool is_sure = true;
         bool is_refused = false;
@@ -427,14 +428,14 @@ void count_refused_alone(double speed, std::array<int, pose_checks>& alone) {
             joints[axis] = std::uniform_real_distribution<double>(range.min - 0.05, range.max + 0.05)(random);
         }
         const Pose tip = inverse(setup) * robot.base_in_cell * forward(robot.geometry, joints) * arm.tip_in_flange;
-        const Vec3 out = -Vec3{tip.row[0].z, tip.row[1].z, tip.row[2].z};
-        const Pose level = tip_frame({}, out, 0);
+        const Vec3 tool_axis = -Vec3{tip.row[0].z, tip.row[1].z, tip.row[2].z};
+        const Pose level = tip_frame({}, tool_axis, 0);
         const Vec3 x{tip.row[0].x, tip.row[1].x, tip.row[2].x};
         const double turn = std::atan2(dot(Vec3{level.row[0].y, level.row[1].y, level.row[2].y}, x),
                                        dot(Vec3{level.row[0].x, level.row[1].x, level.row[2].x}, x));
-        RegionHold hold{branch_of(robot.geometry, joints), turn, false};
+        ArmPosture posture{configuration_of(robot.geometry, joints), turn, false};
         MarginTally tally;
-        judge.judge(block, out, {{{PoseKind::tip, tip.shift, 0}}, 1}, 1, hold, -1e9, tally);
+        judge.judge(block, tool_axis, {{{PoseKind::tip, tip.shift, 0}}, 1}, 1, posture, -1e9, tally);
         std::vector<std::size_t> refusing;
         for (std::size_t c = 0; c < pose_checks; ++c) {
             if (tally.of(static_cast<PoseCheck>(c)).relative < 0) refusing.push_back(c);

@@ -7,11 +7,11 @@
 
 namespace qchopper {
 
-bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell) {
+bool holds_at_placement(const Setup& setup, const std::vector<OrientationPoses>& orientations, const Cell& cell) {
     constexpr double rounding = 1e-9;  // of scores
     if (inside_table(cell, setup.block.size, setup.placement) < -rounding) return false;
-    PlaceScorer scorer(setup, cell, directions);
-    scorer.given_angles(setup.placement.table_angles.size() == directions.size());
+    PlaceScorer scorer(setup, cell, orientations);
+    scorer.given_angles(setup.placement.table_angles.size() == orientations.size());
     return scorer.judged(setup.placement, {true, 0, {}, 0}).score >= -rounding;
 }
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "cam/cell/cell.h"
-#include "cam/setup/placement/carving_poses.h"
+#include "cam/setup/placement/milling_poses.h"
 #include "cam/setup/setup.h"
 
 namespace qchopper {
 
 // At Setup::placement; angles of a rotary table are searched if it names none. Quicker than a report of place_block(),
 // because it ends at the first pose that is not held. Preconditions: the cell has a machine, there is a direction.
-bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell);
+bool holds_at_placement(const Setup& setup, const std::vector<OrientationPoses>& orientations, const Cell& cell);
 
 }  // namespace qchopper

@@ -12,7 +12,7 @@
 
 namespace qchopper {
 
-double remaining_volume(std::span<const HeightMap> maps, Vec3 box_size, const Pose& box_in_piece, double step) {
+double remaining_volume(std::span<const HeightField> maps, Vec3 box_size, const Pose& box_in_piece, double step) {
     assert(!maps.empty() && step > 0);
     const auto count = [&](double length) {
         return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length / step)));
@@ -21,8 +21,8 @@ double remaining_volume(std::span<const HeightMap> maps, Vec3 box_size, const Po
     const auto place = [&](std::size_t i, double length, std::size_t n) {
         return (static_cast<double>(i) + 0.5) * length / static_cast<double>(n);
     };
-    const auto is_below = [](const HeightMap& map, Vec3 in_piece) {
-        const Vec3 p = apply(map.piece_in_map, in_piece);
+    const auto is_below = [](const HeightField& map, Vec3 in_piece) {
+        const Vec3 p = apply(map.piece_in_field, in_piece);
         const double column = p.x / map.cell;
         const double row = p.y / map.cell;
         if (column < 0 || row < 0) return false;
@@ -37,9 +37,10 @@ double remaining_volume(std::span<const HeightMap> maps, Vec3 box_size, const Po
             for (std::size_t z = 0; z < counts[2]; ++z) {
                 const Vec3 at = apply(box_in_piece, {place(x, box_size.x, counts[0]), place(y, box_size.y, counts[1]),
                                                      place(z, box_size.z, counts[2])});
-                found += std::all_of(maps.begin(), maps.end(), [&](const HeightMap& map) { return is_below(map, at); })
-                             ? 1
-                             : 0;
+                found +=
+                    std::all_of(maps.begin(), maps.end(), [&](const HeightField& map) { return is_below(map, at); })
+                        ? 1
+                        : 0;
             }
         }
         remaining += found;

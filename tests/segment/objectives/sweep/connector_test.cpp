@@ -176,7 +176,7 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
         return std::pair(above.solid[over], below.solid[largest[component].second]);
     };
     for (std::size_t t = 0; t < below.triangle.size(); ++t) {
-        if (area_of[below.component[t]] < least_joint_mm2) continue;
+        if (area_of[below.component[t]] < min_joint_mm2) continue;
         Joint& joint = joints[joint_of(below.component[t])];
         joint.area += below.area(t);
         for (const Point2 p : below.triangle[t]) joint.extent.include(p);
@@ -186,7 +186,7 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
         const Point2 p{site.i * o.connector.spacing, site.j * o.connector.spacing};
         const std::size_t t = below.at(p);
         EXPECT_LT(t, below.triangle.size()) << "a site outside the section";
-        if (t >= below.triangle.size() || area_of[below.component[t]] < least_joint_mm2) continue;
+        if (t >= below.triangle.size() || area_of[below.component[t]] < min_joint_mm2) continue;
         joints[joint_of(below.component[t])].places.push_back(p);
     }
     double sum = 0;
@@ -196,7 +196,7 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
     for (const OldJoint& old : old_joints(piece, o.connector)) {
         const auto sides = parted(old, plane.normal, std::array{plane.offset}, o.connector);
         for (const JointMeasure& side : sides[0]) {
-            if (side.area_mm2 < least_joint_mm2) continue;
+            if (side.area_mm2 < min_joint_mm2) continue;
             sum += side.area_mm2 * connector_of({&side, 1}, o.connector);
             areas += side.area_mm2;
         }

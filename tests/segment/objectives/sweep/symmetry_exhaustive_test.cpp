@@ -64,7 +64,7 @@ void expect_no_better_plane(const TriangleMesh& scan, const std::string& name) {
     std::vector<Vec3> points;
     Vec3 sum;
     for (const SurfaceSample& s :
-         symmetry_samples(scan, SymmetryOptions{}.points, SymmetryOptions{}.least_solid_area).sample) {
+         symmetry_samples(scan, SymmetryOptions{}.points, SymmetryOptions{}.min_solid_area).sample) {
         points.push_back(s.point);
         sum = sum + s.point;
     }

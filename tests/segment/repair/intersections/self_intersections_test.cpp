@@ -165,7 +165,7 @@ TEST(SelfIntersections, CountFoldsDoublesAndLines) {
 TEST(SelfIntersections, AreTheSameOnAnyNumberOfThreadsAlsoAtALimit) {
     const TriangleMesh mesh = soup(3000, 0.3, 7, false);
     SelfIntersectionOptions few;
-    few.most_pairs = 500;
+    few.max_pairs = 500;
     SelfIntersections all[2];
     SelfIntersections some[2];
     for (const std::size_t threads : {1, 2}) {

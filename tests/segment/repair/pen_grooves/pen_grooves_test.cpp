@@ -44,8 +44,8 @@ Grooved grooved_sample(Specimen specimen) {
 // What the operator of the scanner can estimate of the pen: the width within 25 %, the depth within 50 %.
 PenGrooveOptions options_for(const DrawnPenGrooves& drawn) {
     PenGrooveOptions options;
-    options.most_width = 1.25 * drawn.width;
-    options.most_depth = 1.5 * drawn.depth;
+    options.max_width = 1.25 * drawn.width;
+    options.max_depth = 1.5 * drawn.depth;
     return options;
 }
 
@@ -114,17 +114,17 @@ void expect_only_pen_grooves_moved(const Grooved& m, const TriangleMesh& smoothe
     }
 }
 
-void expect_pen_grooves_lifted(const Grooved& m, double least_depth, double least_error) {
+void expect_pen_grooves_lifted(const Grooved& m, double min_depth, double min_error) {
     TriangleMesh smoothed = m.mesh;
     const PenGrooveReport report = smooth_pen_grooves(smoothed, options_for(m.drawn));
     const Removed gone = removed(m, smoothed);
-    EXPECT_GE(gone.depth, least_depth);
-    EXPECT_GE(gone.error, least_error);
+    EXPECT_GE(gone.depth, min_depth);
+    EXPECT_GE(gone.error, min_error);
     EXPECT_GT(report.count, 0U);
     EXPECT_GT(report.area_mm2, 0);
-    EXPECT_LE(report.most_depth, 1.5 * m.drawn.depth);
-    EXPECT_GE(report.most_depth, 0.8 * m.drawn.depth);
-    EXPECT_LE(report.mean_depth, report.most_depth);
+    EXPECT_LE(report.max_depth, 1.5 * m.drawn.depth);
+    EXPECT_GE(report.max_depth, 0.8 * m.drawn.depth);
+    EXPECT_LE(report.mean_depth, report.max_depth);
     EXPECT_TRUE(edges(smoothed).faults.is_closed());
     expect_only_pen_grooves_moved(m, smoothed);
     TriangleMesh clean = m.clean;
@@ -180,7 +180,7 @@ TEST(PenGrooves, ShapesWithoutPenGroovesKeepEveryBit) {
         TriangleMesh mesh = before;
         const PenGrooveReport report = smooth_pen_grooves(mesh);
         EXPECT_FALSE(report.is_too_coarse) << shape.name;
-        EXPECT_EQ(report.count, 0U) << shape.name << ", up to " << report.most_depth << " mm";
+        EXPECT_EQ(report.count, 0U) << shape.name << ", up to " << report.max_depth << " mm";
         EXPECT_TRUE(mesh == before) << shape.name;
     }
 }
@@ -234,7 +234,7 @@ TEST(PenGrooves, OfARealScanWithoutInkTheDefaultsLiftNothing) {
     const TriangleMesh before = mesh;
     const PenGrooveReport report = smooth_pen_grooves(mesh);
     EXPECT_FALSE(report.is_too_coarse);
-    EXPECT_EQ(report.count, 0U) << report.most_depth;
+    EXPECT_EQ(report.count, 0U) << report.max_depth;
     EXPECT_TRUE(mesh == before);
 }
 
@@ -242,7 +242,7 @@ TEST(PenGrooves, MeasuresThatMakeNoSenseAreRefused) {
     TriangleMesh ball = shapes::ball({0, 0, 0}, 20);
     for (const double width : {0.0, -1.0, double(NAN), double(INFINITY)}) {
         PenGrooveOptions options;
-        options.most_width = width;
+        options.max_width = width;
         EXPECT_THROW(smooth_pen_grooves(ball, options), InputError);
     }
 }

@@ -58,7 +58,7 @@ TEST(Candidates, OffsetsAtStepsAreTheStepApartOrATwoHundredthOfTheExtent) {
     ASSERT_EQ(many.size(), 199U);
     EXPECT_DOUBLE_EQ(many.front(), 10);
     EXPECT_DOUBLE_EQ(many.back(), 1'990);
-    EXPECT_EQ(most_offsets(options), 199);
+    EXPECT_EQ(max_offsets(options), 199);
     EXPECT_TRUE(candidate_offsets({0, 4}, options).empty());
     EXPECT_TRUE(candidate_offsets({0, 5}, options).empty()) << "strictly inside";
 }

@@ -1,0 +1,27 @@
+// The result of dry-run and dispatch: a table for people, one JSON document for programs. O(jobs).
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/dispatch/dispatch_jobs.h"
+
+namespace qchopper {
+
+struct DispatchReport {
+    std::vector<DispatchedJob> handed;
+    std::size_t wanted = 0;            // jobs to be handed over; handed has at most as many
+    bool is_simulated = false;         // the cell
+    std::vector<std::string> refused;  // why none was sent (unreachable_jobs), or empty
+    std::string next;                  // the command that comes next, if all ended complete; may be empty
+    // All jobs that are wanted ended complete, now or before.
+    bool is_complete() const;
+    bool is_cancelled() const;
+};
+
+std::vector<std::string> lines(const DispatchReport& report);
+// `schema`: "qchopper-dry-run-1" or "qchopper-dispatch-1".
+std::string document(const DispatchReport& report, const std::string& schema);
+
+}  // namespace qchopper

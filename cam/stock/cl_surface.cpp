@@ -1,0 +1,272 @@
+// Drop-cutter on a height field: dilation by the tool (K. Suresh and D. C. H. Yang, "Constant scallop-height machining
+// of free-form surfaces", 1994, for the offset; J. Serra, "Image analysis and mathematical morphology", 1982, for the
+// dilation). The tool is round, so the two rows at one distance from its axis share their terms: the larger of the two
+// is taken first, and of two columns likewise. A chunk of a row is done at a time; rows and columns whose highest cell
+// could not raise the lowest of the chunk are left out, which changes no result.
+// O(cells * (radius / cell)^2 / 4) at most.
+
+#include "cam/stock/cl_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t chunk = 64;        // cells of a row
+constexpr std::size_t block = 32;        // cells of a row of which the highest is known
+constexpr std::size_t rows_at_once = 8;  // of a map
+constexpr double above_tool = 1e-3;      // mm, by which a tip that is not raised may seem to lie above its tool's
+
+// A tool of any of the shapes, and the points within a distance of it.
+struct RoundProfile {
+    double radius = 0;
+    double corner = 0;      // radius of the tip or of the rounded edge
+    double half_angle = 0;  // of a cone; 0: the edge ends in the shank
+
+    double height(double r) const {
+        if (r > radius) return std::numeric_limits<double>::infinity();
+        if (half_angle > 0) {
+            const double tangent = corner * std::cos(half_angle);
+            if (r > tangent) return corner * (1 - std::sin(half_angle)) + (r - tangent) / std::tan(half_angle);
+            return corner - std::sqrt(corner * corner - r * r);
+        }
+        const double over = r - (radius - corner);
+        return over <= 0 ? 0 : corner - std::sqrt(std::max(0.0, corner * corner - over * over));
+    }
+};
+
+RoundProfile profile_of(const CuttingTool& tool, double allowance) {
+    const double radius = 0.5 * tool.diameter + allowance;
+    if (tool.shape == ToolShape::cone || is_drill(tool))
+        return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
+    if (tool.shape == ToolShape::ball) return {radius, radius, 0};
+    return {radius, (tool.shape == ToolShape::flat ? 0 : tool.corner_radius) + allowance, 0};
+}
+
+// The distance of the nearest point of a cell, without a border of it, from the middle of one that lies so many cells
+// beside.
+double nearest(std::size_t columns, std::size_t rows, double cell, double border) {
+    const auto past = [&](std::size_t n) { return n == 0 ? 0 : cell * (static_cast<double>(n) - 0.5) + border; };
+    return std::hypot(past(columns), past(rows));
+}
+
+void check(const DilationOptions& options) {
+    const auto check_length = [](double length, const std::string& name) {
+        if (length >= 0 && std::isfinite(length)) return;
+        throw InputError(InputFault::use, name + " is not a length from zero on", "give another value");
+    };
+    check_length(options.allowance, "allowance");
+    check_length(options.border, "border of a cell");
+}
+
+}  // namespace
+
+double tool_profile(const CuttingTool& tool, double r) {
+    assert(r >= 0);
+    return profile_of(tool, 0).height(r);
+}
+
+ToolDilation::ToolDilation(const HeightField& target, const CuttingTool& tool, const DilationOptions& options) {
+    check(options);
+    const RoundProfile profile = profile_of(tool, options.allowance);
+    const double border = std::min(options.border, 0.5 * target.cell);
+    tool_ = tool;
+    allowance_ = options.allowance;
+    inner_ = 0.5 * target.cell - border;
+    const auto distance = [&](std::size_t column, std::size_t row) {
+        return nearest(column, row, target.cell, border);
+    };
+    for (std::size_t row = 0; distance(0, row) <= profile.radius; ++row) {
+        std::vector<float> drops;
+        for (std::size_t column = 0; distance(column, row) <= profile.radius; ++column) {
+            const double above = profile.height(distance(column, row));
+            drops.push_back(static_cast<float>(options.allowance - above));
+        }
+        drop_.push_back(drops);
+    }
+    take(target);
+}
+
+ToolDilation ToolDilation::of_negative_cl_surface(const HeightField& negative_cl_surface, const CuttingTool& tool) {
+    ToolDilation dilation;
+    dilation.tool_ = tool;
+    const RoundProfile profile = profile_of(tool, 0);
+    const auto distance = [&](std::size_t columns, std::size_t rows) {
+        return negative_cl_surface.cell * std::hypot(static_cast<double>(columns), static_cast<double>(rows));
+    };
+    for (std::size_t row = 0; distance(0, row) <= profile.radius; ++row) {
+        std::vector<float> drops;
+        for (std::size_t column = 0; distance(column, row) <= profile.radius; ++column) {
+            drops.push_back(static_cast<float>(-profile.height(distance(column, row))));
+        }
+        dilation.drop_.push_back(drops);
+    }
+    dilation.take(negative_cl_surface);
+    return dilation;
+}
+
+void ToolDilation::take(const HeightField& target) {
+    target_ = &target;
+    blocks_ = (target.columns + block - 1) / block;
+    block_top_.resize(blocks_ * target.rows);
+    parallel_for(0, target.rows, [&](std::size_t row) {
+        const float* own = &target.height[row * target.columns];
+        for (std::size_t b = 0; b < blocks_; ++b) {
+            block_top_[row * blocks_ + b] =
+                *std::max_element(own + b * block, own + std::min(target.columns, (b + 1) * block));
+        }
+    });
+}
+
+float ToolDilation::highest(std::size_t row, std::size_t first, std::size_t end) const {
+    const float* tops = &block_top_[row * blocks_];
+    return *std::max_element(tops + first / block, tops + (end - 1) / block + 1);
+}
+
+void ToolDilation::fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const {
+    const HeightField& map = *target_;
+    std::array<float, chunk> own;
+    own.fill(HeightField::nothing);
+    for (std::size_t dy = 0; dy < drop_.size(); ++dy) {
+        const std::vector<float>& drops = drop_[dy];
+        const std::size_t reach = drops.size() - 1;
+        // The cells from which the chunk is reached, and of those the ones in the map.
+        const std::size_t from = first > reach ? first - reach : 0;
+        const std::size_t end = std::min(map.columns, first + count + reach);
+        const bool has_below = row >= dy;
+        const bool has_above = row + dy < map.rows;
+        if (!has_below && !has_above) break;
+        float top = has_below ? highest(row - dy, from, end) : HeightField::nothing;
+        if (has_above) top = std::max(top, highest(row + dy, from, end));
+        const float lowest = *std::min_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count));
+        if (top + drops[0] <= lowest) continue;
+        std::fill_n(pair, chunk + 2 * reach, HeightField::nothing);
+        float* in_map = pair + (from + reach - first);
+        const float* below = &map.height[(has_below ? row - dy : row + dy) * map.columns];
+        const float* above = &map.height[(has_above ? row + dy : row - dy) * map.columns];
+        for (std::size_t c = from; c < end; ++c) in_map[c - from] = std::max(below[c], above[c]);
+        for (std::size_t dx = 0; dx <= reach && top + drops[dx] > lowest; ++dx) {
+            const float* left = pair + (reach - dx);
+            const float* right = pair + (reach + dx);
+            const float drop = drops[dx];
+            for (std::size_t c = 0; c < chunk; ++c) own[c] = std::max(own[c], std::max(left[c], right[c]) + drop);
+        }
+    }
+    std::copy_n(own.begin(), count, tip);
+}
+
+void ToolDilation::fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const {
+    assert(row < target_->rows && end <= target_->columns);
+    std::vector<float> pair(chunk + 2 * drop_[0].size());
+    for (std::size_t c = first; c < end; c += chunk) {
+        fill_chunk(row, c, std::min(chunk, end - c), tip + (c - first), pair.data());
+    }
+}
+
+double ToolDilation::height(double x, double y, const Bounds& asked) const {
+    const HeightField& map = *target_;
+    const RoundProfile profile = profile_of(tool_, allowance_);
+    const double past = profile.radius + inner_;
+    const auto first = [&](double at) {
+        return static_cast<std::size_t>(std::max(0.0, std::floor((at - past) / map.cell)));
+    };
+    const auto end = [&](double at, std::size_t count) {
+        return std::min(count, static_cast<std::size_t>(std::max(0.0, std::floor((at + past) / map.cell) + 1)));
+    };
+    const auto beside = [&](double at, std::size_t cell) {
+        return std::max(0.0, std::abs(map.cell * (static_cast<double>(cell) + 0.5) - at) - inner_);
+    };
+    double least = asked.low;
+    const std::size_t first_column = first(x);
+    const std::size_t end_column = end(x, map.columns);
+    const std::size_t first_row = first(y);
+    const std::size_t end_row = end(y, map.rows);
+    if (first_column >= end_column || first_row >= end_row) return least;
+    const auto take_row = [&](std::size_t row) {
+        const double v = beside(y, row);
+        const double top = static_cast<double>(highest(row, first_column, end_column)) + allowance_;
+        if (top - profile.height(v) <= least) return;
+        const float* own = &map.height[row * map.columns];
+        for (std::size_t column = first_column; column < end_column; ++column) {
+            const double high = static_cast<double>(own[column]) + allowance_;
+            if (high <= least) continue;
+            const double u = beside(x, column);
+            least = std::max(least, high - profile.height(std::sqrt(u * u + v * v)));
+        }
+    };
+    // From the middle outwards, so that more of the rows are too low.
+    const std::size_t middle = std::clamp(static_cast<std::size_t>(std::max(0.0, y / map.cell)), first_row, end_row);
+    for (std::size_t row = middle; row < end_row && least < asked.high; ++row) take_row(row);
+    for (std::size_t row = middle; row > first_row && least < asked.high; --row) take_row(row - 1);
+    return least;
+}
+
+namespace {
+
+HeightField filled(const HeightField& map, const ToolDilation& dilation) {
+    HeightField result = map;
+    parallel_ranges(0, map.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t row = first; row < end; ++row) {
+            dilation.fill(row, 0, map.columns, &result.height[row * map.columns]);
+        }
+    });
+    return result;
+}
+
+}  // namespace
+
+double edge_rise(double radius, double cell) {
+    return std::sqrt(radius * cell);
+}
+
+bool is_of_tool(const HeightField& tip, const ToolDilation& tool, std::size_t cell) {
+    const std::size_t row = cell / tip.columns;
+    const std::size_t column = cell % tip.columns;
+    const double x = tip.cell * (static_cast<double>(column) + 0.5);
+    const double y = tip.cell * (static_cast<double>(row) + 0.5);
+    const double least = static_cast<double>(tip.height[cell]) - above_tool;
+    return tool.height(x, y, {least - above_tool, least}) >= least;
+}
+
+HeightField cl_surface(const HeightField& target, const CuttingTool& tool, const DilationOptions& options) {
+    return filled(target, ToolDilation(target, tool, options));
+}
+
+HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool) {
+    HeightField negative = tip;
+    for (float& z : negative.height) z = -z;
+    HeightField remaining = filled(negative, ToolDilation::of_negative_cl_surface(negative, tool));
+    for (float& z : remaining.height) z = -z;
+    return remaining;
+}
+
+bool raise_to_holder(HeightField& tip, const HeightField& target, const ToolBody& body, const Pose& piece_in_setup) {
+    assert(tip.columns == target.columns && tip.rows == target.rows);
+    if (body.steps.empty()) return false;
+    double narrowest = body.steps.front().diameter;
+    for (const HolderStep& step : body.steps) narrowest = std::min(narrowest, step.diameter);
+    // Both the tip and the obstacle may lie anywhere in their cells, sqrt(2) of them farther apart or nearer. The cells
+    // are wider for the wider steps: (48 + 1.725) / 48 = 1.036, and 1.036 * sqrt(2) < 1.725.
+    constexpr double cells_per_radius = 48;
+    const double wide = std::max(2 * target.cell, 0.5 * narrowest / cells_per_radius);
+    ToolBody grown = body;
+    for (HolderStep& step : grown.steps) step.diameter += 2 * 1.725 * wide;
+    HeightField limit = target;
+    raise_to_holder_clearance(limit, grown, piece_in_setup, cells_per_radius);
+    bool is_raised = false;
+    for (std::size_t i = 0; i < tip.height.size(); ++i) {
+        if (!(limit.height[i] > tip.height[i])) continue;
+        tip.height[i] = limit.height[i];
+        is_raised = true;
+    }
+    return is_raised;
+}
+
+}  // namespace qchopper

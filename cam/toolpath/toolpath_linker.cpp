@@ -1,0 +1,329 @@
+// Ways are looked at in samples half a cell of the foam's map apart, and for the tip limit a cell of it, or a sixteenth
+// where the tool is known. Each run lowers the foam as it goes, so that what was milled a moment ago is free.
+// O(samples * (radius / cell)^2).
+
+#include "cam/toolpath/toolpath_linker.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "cam/toolpath/pass_order.h"
+#include "segment/raster/bilinear_cell.h"
+#include "segment/raster/disc_dilation.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t many_moves = 250;                      // a run ends at the next link that goes high
+constexpr std::size_t max_moves = 900;                       // a run ends in the middle of a pass
+constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
+constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
+constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr double rounding = 1e-3;                            // mm, of heights in single precision
+constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
+
+Vec3 raised(Vec3 point, double z) {
+    return {point.x, point.y, z};
+}
+
+// The first part of a pass, of a length.
+std::vector<Vec3> beginning_of(const Pass& pass, double length) {
+    std::vector<Vec3> part{pass.points[0].tip};
+    for (std::size_t i = 1; i < pass.points.size() && length > 0; ++i) {
+        const Vec3 next = pass.points[i].tip;
+        const double leg = norm(next - part.back());
+        if (leg <= 0) continue;
+        part.push_back(leg <= length ? next : part.back() + (length / leg) * (next - part.back()));
+        length -= leg;
+    }
+    return part;
+}
+
+}  // namespace
+
+double min_height(const HeightField& map, double x, double y) {
+    const double column = std::floor(x / map.cell);
+    const double row = std::floor(y / map.cell);
+    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return static_cast<double>(map.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)));
+}
+
+double length_of(const Pass& pass) {
+    double length = 0;
+    for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
+    return length;
+}
+
+HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body, const HolderGap& gap, double lowest) {
+    HeightField limit{stock.piece_in_field, stock.cell, stock.columns, stock.rows, {}};
+    limit.height.assign(stock.height.size(), HeightField::nothing);
+    const float highest =
+        stock.height.empty() ? HeightField::nothing : *std::max_element(stock.height.begin(), stock.height.end());
+    double above = body.stick_out;
+    for (const HolderStep& step : body.steps) {
+        const auto drop = static_cast<float>(above - gap.clearance);
+        above += step.length;
+        if (static_cast<double>(highest - drop) < lowest) continue;
+        // Foam may lie anywhere in its cell, and the tip in its own.
+        const double factor = step.diameter > 80 * stock.cell ? gap.wide_cells : 1;
+        const HeightField wide = factor > 1 ? coarser(stock, factor) : stock;
+        const double radius = 0.5 * step.diameter + gap.clearance + 2 * half_diagonal * wide.cell;
+        const HeightField top = dilate_by_disc(wide, radius);
+        for (std::size_t row = 0; row < limit.rows; ++row) {
+            const std::size_t under =
+                std::min(static_cast<std::size_t>((static_cast<double>(row) + 0.5) / factor), top.rows - 1);
+            for (std::size_t c = 0; c < limit.columns; ++c) {
+                const std::size_t at =
+                    std::min(static_cast<std::size_t>((static_cast<double>(c) + 0.5) / factor), top.columns - 1);
+                float& own = limit.height[row * limit.columns + c];
+                own = std::max(own, top.at(at, under) - drop);
+            }
+        }
+    }
+    return limit;
+}
+
+bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest) {
+    // The first step is the lowest.
+    return !body.steps.empty() && highest - (body.stick_out - gap.clearance) >= lowest - rounding;
+}
+
+// What is on a straight line from the tip to another place.
+struct ToolpathLinker::Way {
+    double length = 0;
+    double foam = -std::numeric_limits<double>::infinity();  // highest that the tool may touch
+    double limit = foam;                                     // of the tip
+    double holder = foam;
+    double over_limit = foam;  // most by which the limit is above the way
+    double over_holder = foam;
+    double over_stock = foam;
+    double over_flute = foam;  // most by which foam under the tool is above the flute
+};
+
+ToolpathLinker::ToolpathLinker(MillingSpace& space, const CuttingTool& tool, const Operation& operation,
+                               LinkOptions options)
+    : space_(&space),
+      tool_(&tool),
+      operation_(&operation),
+      options_(options),
+      sweep_(tool, space.stock.cell, options.slack),
+      centre_sweep_(tool, space.stock.cell, 0, StockCells::centres) {
+    const double radius = 0.5 * tool.diameter;
+    const double cell = space.stock.cell;
+    outer_ = radius + (half_diagonal + 0.25) * cell + options.slack;
+    inner_ = std::max(0.0, radius - 2 * half_diagonal * cell);
+}
+
+double ToolpathLinker::stock_near(Vec3 at, double radius) const {
+    return static_cast<double>(dilation_at(space_->stock, at.x, at.y, radius));
+}
+
+double ToolpathLinker::over_flute(Vec3 at) const {
+    const double radius = std::max(0.0, 0.5 * tool_->diameter - flute_rim);
+    return static_cast<double>(dilation_at(space_->centre_stock, at.x, at.y, radius)) - at.z - tool_->flute_length;
+}
+
+// Across an edge the limit between the centres of cells is no straight line: there the tool tells.
+double ToolpathLinker::limit_at(Vec3 p) const {
+    if (!space_->is_limit_between) return min_height(*space_->cl_limit, p.x, p.y);
+    const HeightField& tip = *space_->cl_limit;
+    const BilinearCell around(tip, p.x, p.y);
+    const double limit = around.height(tip);
+    if (space_->tool == nullptr) return limit;
+    const auto height_of = [&](std::size_t cell) { return static_cast<double>(tip.height[cell]); };
+    const auto is_lower = [&](std::size_t a, std::size_t b) { return tip.height[a] < tip.height[b]; };
+    const auto [lowest, highest] = std::minmax_element(around.cells.begin(), around.cells.end(), is_lower);
+    const double rise = height_of(*highest) - height_of(*lowest);
+    if (height_of(*highest) <= p.z || rise <= edge_rise(0.5 * tool_->diameter, tip.cell)) return limit;
+    const double of_tool = space_->tool->height(p.x, p.y);
+    const bool is_raised = std::any_of(around.cells.begin(), around.cells.end(), [&](std::size_t cell) {
+        return height_of(cell) > p.z && !is_of_tool(tip, *space_->tool, cell);
+    });
+    return is_raised ? std::max(limit, of_tool) : of_tool;
+}
+
+// How far apart a way is held against the limit. An edge that is known between the centres of cells may lie between two
+// places as well: then the tool is at most so far in the wall.
+double ToolpathLinker::limit_spacing() const {
+    const double cell = space_->cl_limit->cell;
+    if (!space_->is_limit_between) return 0.5 * cell;
+    return space_->tool != nullptr ? cell / 16 : cell;
+}
+
+double ToolpathLinker::holder_at(double x, double y) const {
+    return min_height(space_->holder_clearance_height, x, y);
+}
+
+bool ToolpathLinker::needs_ramp(Vec3 at) const {
+    return stock_near(at, inner_) > at.z + 0.1;
+}
+
+ToolpathLinker::Way ToolpathLinker::way_to(Vec3 to) const {
+    Way way;
+    const Vec3 line = to - at_;
+    way.length = norm(line);
+    const double across = std::hypot(line.x, line.y);
+    const double fine = limit_spacing();
+    const auto samples = static_cast<std::size_t>(across / fine) + 1;
+    const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * space_->stock.cell / fine));
+    for (std::size_t i = 0; i <= samples; ++i) {
+        const Vec3 p = at_ + (static_cast<double>(i) / static_cast<double>(samples)) * line;
+        const double limit = limit_at(p);
+        way.limit = std::max(way.limit, limit);
+        way.over_limit = std::max(way.over_limit, limit - p.z);
+        if (i % every != 0 && i != samples) continue;
+        const double foam = stock_near(p, outer_);
+        const double holder = holder_at(p.x, p.y);
+        way.foam = std::max(way.foam, foam);
+        way.over_stock = std::max(way.over_stock, foam - p.z);
+        way.holder = std::max(way.holder, holder);
+        way.over_holder = std::max(way.over_holder, holder - p.z);
+        way.over_flute = std::max(way.over_flute, over_flute(p));
+    }
+    return way;
+}
+
+void ToolpathLinker::move(Vec3 tip, MoveKind kind, bool is_rounded) {
+    if (kind == MoveKind::cut || kind == MoveKind::approach) {
+        sweep_.move(space_->stock, space_->removed, at_, tip);
+        centre_sweep_.move(space_->centre_stock, space_->centre_removed, at_, tip);
+    }
+    if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
+    at_ = tip;
+}
+
+void ToolpathLinker::begin_run(Vec3 at) {
+    run_ = {};
+    at_ = raised(at, space_->retract);
+    run_.start = at_;
+}
+
+void ToolpathLinker::end_run() {
+    if (run_.moves.empty()) return;
+    move(raised(at_, space_->retract), MoveKind::retract);
+    runs_.push_back(std::move(run_));
+    run_ = {};
+}
+
+void ToolpathLinker::hop_to(Vec3 to, double height) {
+    // Rounding begins no deeper than the clearance.
+    const bool is_rounded = operation_->rounding <= options_.clearance;
+    move(raised(at_, height), MoveKind::retract, is_rounded);
+    move(raised(to, height), MoveKind::link, is_rounded);
+}
+
+void ToolpathLinker::ramp(const Pass& pass, double top) {
+    const double down = top - pass.points[0].tip.z;
+    const double whole = down / ramp_slope;
+    std::vector<Vec3> part = beginning_of(pass, std::min(0.5 * whole, length_of(pass)));
+    double length = 0;
+    for (std::size_t i = 1; i < part.size(); ++i) length += norm(part[i] - part[i - 1]);
+    const auto pairs = static_cast<std::size_t>(std::ceil(whole / (2 * length) - 1e-9));
+    const double slope = down / (2 * length * static_cast<double>(pairs));
+    double z = top;
+    for (std::size_t traverse = 0; traverse < 2 * pairs; ++traverse) {
+        for (std::size_t i = 1; i < part.size(); ++i) {
+            z -= slope * norm(part[i] - part[i - 1]);
+            move(raised(part[i], std::max(z, part[i].z)), MoveKind::cut, i + 1 < part.size());
+        }
+        std::reverse(part.begin(), part.end());
+    }
+    move(pass.points[0].tip, MoveKind::cut);
+}
+
+// From above the first point.
+void ToolpathLinker::enter(const Pass& pass) {
+    const Vec3 first = pass.points[0].tip;
+    const double clear = std::max(first.z, stock_near(first, outer_)) + options_.gap;
+    if (clear < at_.z) move(raised(first, clear), MoveKind::link);
+    const bool is_ramped = options_.has_ramps && length_of(pass) >= min_ramp && needs_ramp(first);
+    double top = std::max(first.z, stock_near(first, inner_));
+    if (is_ramped) {
+        for (const Vec3& p : beginning_of(pass, (top - first.z) / ramp_slope))
+            top = std::max(top, stock_near(p, inner_));
+    }
+    if (top + options_.gap < at_.z) move(raised(first, top + options_.gap), MoveKind::cut);
+    if (!is_ramped) return move(first, MoveKind::approach);
+    if (top < at_.z) move(raised(first, top), MoveKind::approach);
+    ramp(pass, std::min(top, at_.z));
+}
+
+void ToolpathLinker::go_to(const Pass& pass) {
+    const Vec3 to = pass.points[0].tip;
+    if (run_.moves.empty()) {
+        begin_run(to);
+        return enter(pass);
+    }
+    if (std::hypot(to.x - at_.x, to.y - at_.y) > options_.stay_down) {
+        end_run();
+        begin_run(to);
+        return enter(pass);
+    }
+    const Way way = way_to(to);
+    const bool is_free = way.over_limit <= 1e-3 && way.over_holder <= 0;
+    if (is_free && way.over_stock <= 0) return move(to, MoveKind::link);
+    const double height = std::max({way.foam, way.limit, way.holder, at_.z, to.z}) + options_.clearance;
+    const double hop_s = (2 * height - at_.z - to.z + way.length) / operation_->link_feed + 0.3 +
+                         2 * options_.gap / std::max(1.0, operation_->approach_feed);
+    const bool is_cut_shorter = way.length / operation_->feed <= hop_s;
+    if (is_cut_shorter && way.over_flute <= 0 && way.over_holder <= 0) {
+        if (is_free) return move(to, MoveKind::cut);
+        if (space_->is_limit_between && way.over_limit < highest_lift) {
+            const double lift = way.over_limit + 0.01;
+            const Vec3 end = to;
+            move(raised(at_, at_.z + lift), MoveKind::cut);
+            move(raised(end, end.z + lift), MoveKind::cut);
+            return move(end, MoveKind::cut);
+        }
+    }
+    if (height >= space_->retract - options_.clearance || run_.moves.size() >= many_moves) {
+        end_run();
+        begin_run(to);
+    } else {
+        hop_to(to, height);
+    }
+    enter(pass);
+}
+
+void ToolpathLinker::add_pass(const Pass& pass) {
+    assert(pass.points.size() >= 2);
+    go_to(pass);
+    for (std::size_t i = 1; i < pass.points.size(); ++i) {
+        const bool is_last = i + 1 == pass.points.size();
+        if (run_.moves.size() >= max_moves) {
+            Pass rest;
+            rest.points.assign(pass.points.begin() + static_cast<std::ptrdiff_t>(i) - 1, pass.points.end());
+            end_run();
+            begin_run(rest.points[0].tip);
+            enter(rest);
+        }
+        move(pass.points[i].tip, MoveKind::cut, pass.points[i].is_rounded && !is_last);
+    }
+}
+
+void ToolpathLinker::add(const std::vector<Pass>& passes) {
+    PassOrder order(passes);
+    while (const std::optional<PassEntry> entry = order.take_nearest(at_)) {
+        Pass pass = begun_at(passes[entry->pass], entry->point);
+        // An open pass is rather begun beside the foam.
+        if (options_.has_ramps && !pass.is_closed && needs_ramp(pass.points[0].tip)) {
+            const Vec3 other = pass.points.back().tip;
+            const double more = norm(other - at_) - norm(pass.points[0].tip - at_);
+            if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
+        }
+        add_pass(pass);
+    }
+}
+
+std::vector<PathRun> ToolpathLinker::finish() {
+    end_run();
+    return std::move(runs_);
+}
+
+}  // namespace qchopper

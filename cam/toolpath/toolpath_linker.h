@@ -1,0 +1,117 @@
+// Joins passes to runs: which pass comes next, and how the tool comes to it.
+//
+// mm, in the frame of the height fields of one direction. A link at its own feed touches no foam: the whole tool must
+// be clear of all that may be foam. Where that is not known, the way is driven at the feed of cuts
+// (tests/cam/toolpath/passes_and_links_test.cpp).
+//
+// The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
+// the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp
+// along itself, unless it begins beside the foam. Plunges, at the feed of approaches: in finishing, through what
+// roughing left, and in roughing where a pass is shorter than min_ramp.
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "cam/cell/cutting_tool.h"
+#include "cam/setup/holder_clearance.h"
+#include "cam/stock/cl_surface.h"
+#include "cam/stock/in_process_stock.h"
+#include "cam/toolpath/pass.h"
+#include "cam/toolpath/toolpath.h"
+#include "segment/raster/height_field.h"
+
+namespace qchopper {
+
+constexpr double min_ramp = 3;  // mm
+
+// What is around the tool in one direction. All maps have the frame of the passes; those of foam and holder have the
+// same cells.
+struct MillingSpace {
+    const HeightField* cl_limit = nullptr;  // least height of the tip
+    bool is_limit_between = true;           // the limit holds between centres of cells too; else each cell has its own
+    const ToolDilation* tool = nullptr;     // if known: what made the limit, which may have been raised since
+    HeightField stock;                      // highest foam; runs lower it
+    HeightField removed;                    // down to where runs removed everything, infinite elsewhere; runs lower it
+    HeightField centre_stock;               // at the centres of cells; runs lower it
+    HeightField centre_removed;             // likewise
+    HeightField holder_clearance_height;    // least height of the tip over what the foam is, or was
+    double retract = 0;                     // height of the retract plane
+};
+
+// The height of the cell of a map under a point; -infinity beside the map.
+double min_height(const HeightField& map, double x, double y);
+
+double length_of(const Pass& pass);
+
+// Within so much of its rim, a tool may graze foam that is higher than its flute: no centre of a cell may lie there.
+constexpr double flute_rim = 0.25;  // mm
+
+// How near to foam holder and spindle come, and how exactly that is known.
+struct HolderGap {
+    double clearance = 0.3;  // mm
+    double wide_cells = 1;   // cells of the foam, each way, that are taken as one for wide steps of the holder
+};
+
+// The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map. For tips that
+// are never below `lowest`: limits below it may be lower than they are. O(cells * widest radius / cell) at most.
+HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body, const HolderGap& gap = {},
+                                  double lowest = -std::numeric_limits<double>::infinity());
+
+// Whether any of these limits over foam that is nowhere higher than `highest` can be as high as `lowest`.
+bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest);
+
+struct LinkOptions {
+    bool has_ramps = false;  // of roughing
+    double stay_down = 300;  // longest straight line to the next pass that is looked at
+    double gap = 2;          // above foam, where an approach begins
+    double clearance = 3;    // above what a link goes over
+    double slack = 0.36;     // how far a controller that rounds corners may pass beside the way
+};
+
+class ToolpathLinker {
+ public:
+    // The space, the tool and the operation, whose feeds and rounding are looked at, must outlive it.
+    ToolpathLinker(MillingSpace& space, const CuttingTool& tool, const Operation& operation, LinkOptions options);
+
+    // Adds passes, nearest first. O(passes + length of the links / cell * (radius / cell)^2).
+    void add(const std::vector<Pass>& passes);
+
+    // The runs in map coordinates, at most about 300 moves each where a link goes high anyway, never more than 1000.
+    std::vector<PathRun> finish();
+
+ private:
+    struct Way;
+    void add_pass(const Pass& pass);
+    void begin_run(Vec3 at);
+    void end_run();
+    void go_to(const Pass& pass);
+    void hop_to(Vec3 to, double height);
+    void enter(const Pass& pass);
+    void ramp(const Pass& pass, double top);
+    void move(Vec3 tip, MoveKind kind, bool is_rounded = false);
+    Way way_to(Vec3 to) const;
+
+    double stock_near(Vec3 at, double radius) const;
+    double over_flute(Vec3 at) const;
+    double limit_at(Vec3 p) const;
+    double limit_spacing() const;
+    double holder_at(double x, double y) const;
+    bool needs_ramp(Vec3 at) const;
+
+    MillingSpace* space_;
+    const CuttingTool* tool_;
+    const Operation* operation_;
+    LinkOptions options_;
+    ToolSweep sweep_;
+    ToolSweep centre_sweep_;
+    double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
+    double inner_ = 0;  // radius within which all of a cell lies under the tool
+    Vec3 at_;
+    PathRun run_;
+    std::vector<PathRun> runs_;
+};
+
+}  // namespace qchopper

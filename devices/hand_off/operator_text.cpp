@@ -1,0 +1,67 @@
+// Tables. O(1).
+
+#include "devices/hand_off/operator_text.h"
+
+#include <cstdio>
+
+namespace qchopper {
+
+const char* foam_in(PackState state) {
+    constexpr const char* none = "the cell cuts no foam";
+    constexpr const char* cuts = "the cell is cutting foam";
+    constexpr const char* ends = "the machine is coming to a stop";
+    constexpr const char* held_up = "the cell cuts no foam while its job is held";
+    constexpr const char* clauses[] = {"whether the cell cuts foam is not known",
+                                       none,     // Clearing
+                                       none,     // Stopped
+                                       cuts,     // Starting
+                                       none,     // Idle
+                                       held_up,  // Suspended
+                                       cuts,     // Execute
+                                       ends,     // Stopping
+                                       ends,     // Aborting
+                                       none,     // Aborted
+                                       ends,     // Holding
+                                       held_up,  // Held
+                                       cuts,     // Unholding
+                                       ends,     // Suspending
+                                       cuts,     // Unsuspending
+                                       none,     // Resetting
+                                       cuts,     // Completing
+                                       none};    // Complete
+    const auto number = static_cast<std::uint16_t>(state);
+    return clauses[number <= last_pack_state ? number : 0];
+}
+
+std::string in_words(CellCommand command) {
+    struct Row {
+        CellCommand command;
+        const char* words;
+    };
+    constexpr Row rows[] = {{CellCommand::claim, "take this computer as its dispatcher"},
+                            {CellCommand::release, "end its lease"},
+                            {CellCommand::store, "take the ticket"},
+                            {CellCommand::verify, "check the job file"},
+                            {CellCommand::rehearse, "rehearse the job"},
+                            {CellCommand::prepare, "ask its operator for consent"},
+                            {CellCommand::cancel, "drop the job"},
+                            {CellCommand::query, "tell what became of the job"},
+                            {CellCommand::query_file, "tell whether the file was carved"},
+                            {CellCommand::clear_result, "clear the result"}};
+    for (const Row& row : rows) {
+        if (row.command == command) return std::string(name(command)) + " (" + row.words + ")";
+    }
+    return name(command);
+}
+
+std::string dispatcher_name(std::uint32_t owner) {
+    char text[32];
+    std::snprintf(text, sizeof text, "dispatcher 0x%08X", owner);
+    return text;
+}
+
+std::string cell_command(const std::string& address, const std::string& words) {
+    return "qchopper cell " + words + (address.empty() ? "" : " --to " + address);
+}
+
+}  // namespace qchopper

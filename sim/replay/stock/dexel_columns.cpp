@@ -1,0 +1,167 @@
+// Subtraction from a part of a column is that of the whole, because removals are unions of intervals. Intervals that
+// are empty in single precision are left out.
+
+#include "sim/replay/stock/dexel_columns.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace qchopper {
+namespace {
+
+constexpr std::int32_t side = DexelTile::side;
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+struct BelowRange {
+    std::vector<DexelTile::Below>::iterator begin;
+    std::vector<DexelTile::Below>::iterator end;
+};
+
+BelowRange below_of(std::vector<DexelTile::Below>& row, std::size_t cell) {
+    const auto is_before = [](const DexelTile::Below& b, std::uint32_t c) { return b.cell < c; };
+    const auto number = static_cast<std::uint32_t>(cell);
+    return {std::lower_bound(row.begin(), row.end(), number, is_before),
+            std::lower_bound(row.begin(), row.end(), number + 1, is_before)};
+}
+
+// The next interval below of a column becomes its highest.
+void raise_next(DexelTile& tile, std::size_t cell) {
+    std::vector<DexelTile::Below>& row = tile.below[cell / side];
+    const BelowRange range = below_of(row, cell);
+    if (range.begin == range.end) {
+        tile.low[cell] = tile.high[cell] = 0;
+        return;
+    }
+    const auto next = range.end - 1;
+    tile.low[cell] = next->low;
+    tile.high[cell] = next->high;
+    row.erase(next);
+}
+
+void add_part(std::vector<Dexel>& parts, double low, double high) {
+    if (low < high) parts.push_back({low, high});
+}
+
+// Appends intervals; the first continues the last one before if it begins where that ends.
+void append(std::vector<Dexel>& column, const std::vector<Dexel>& parts) {
+    for (const Dexel& part : parts) {
+        if (!(static_cast<float>(part.low) < static_cast<float>(part.high))) continue;
+        if (!column.empty() && column.back().high == part.low) {
+            column.back().high = part.high;
+        } else {
+            column.push_back(part);
+        }
+    }
+}
+
+}  // namespace
+
+DexelColumns::DexelColumns(const std::vector<std::unique_ptr<DexelMap>>& maps, std::size_t orientation)
+    : own_(maps[orientation].get()) {
+    for (std::size_t other = 0; other < maps.size(); ++other) {
+        if (other == orientation) continue;
+        const Pose in_other = inverse(maps[other]->frame_in_block) * own_->frame_in_block;
+        others_.push_back({maps[other].get(), in_other, rotate(in_other, {0, 0, 1})});
+    }
+}
+
+void DexelColumns::begin() {
+    version_ = 1;
+    for (const OtherMap& other : others_) version_ += other.map->version;
+}
+
+DexelTile& DexelColumns::tile(std::int32_t tx, std::int32_t ty) {
+    DexelTile& tile = own_->made_tile(tx, ty);
+    if (tile.version == version_) return tile;
+    if (tile.version == 0) make(tile, tx, ty);
+    tile.known_from.assign(DexelTile::cells, infinite);
+    tile.version = version_;
+    return tile;
+}
+
+// The columns of the block.
+void DexelColumns::make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const {
+    tile.low.assign(DexelTile::cells, 0);
+    tile.high.assign(DexelTile::cells, 0);
+    tile.top.fill(-infinite);
+    for (std::size_t cell = 0; cell < DexelTile::cells; ++cell) {
+        const auto x = static_cast<std::int32_t>(cell % side);
+        const auto y = static_cast<std::int32_t>(cell / side);
+        const Dexel whole =
+            own_->block_on({own_->centre_x(tx * side + x), own_->centre_y(ty * side + y), 0}, {0, 0, 1});
+        const double high = std::min<double>(whole.high, tile.cut[cell]);
+        if (!(whole.low < high)) continue;
+        tile.low[cell] = static_cast<float>(whole.low);
+        tile.high[cell] = static_cast<float>(high);
+        float& top = tile.top[DexelTile::top_of_cell(cell)];
+        top = std::max(top, tile.high[cell]);
+    }
+}
+
+void DexelColumns::subtract_others(TileCell at) {
+    const auto x = static_cast<std::int32_t>(at.cell % side);
+    const auto y = static_cast<std::int32_t>(at.cell / side);
+    const Vec3 foot{own_->centre_x(at.tx * side + x), own_->centre_y(at.ty * side + y), 0};
+    for (const OtherMap& other : others_) {
+        if (part_.empty()) return;
+        other.map->remove_from(part_, apply(other.own_in_other, foot), other.along);
+    }
+}
+
+void DexelColumns::know(DexelTile& tile, TileCell at, double from_up) {
+    const std::size_t cell = at.cell;
+    const auto low = static_cast<float>(from_up);
+    const float high = tile.known_from[cell];
+    if (!(low < high)) return;
+    tile.known_from[cell] = low;
+    if (!(tile.low[cell] < tile.high[cell] && tile.high[cell] > low)) return;
+    column_.clear();
+    part_.clear();
+    upper_.clear();
+    const auto split = [&](float from, float to) {
+        add_part(column_, from, std::min(to, low));
+        add_part(part_, std::max(from, low), std::min(to, high));
+        add_part(upper_, std::max(from, high), to);
+    };
+    const BelowRange below = below_of(tile.below[cell / side], cell);
+    for (auto interval = below.begin; interval != below.end; ++interval) split(interval->low, interval->high);
+    split(tile.low[cell], tile.high[cell]);
+    subtract_others(at);
+    append(column_, part_);
+    append(column_, upper_);
+    write(tile, cell);
+}
+
+void DexelColumns::write(DexelTile& tile, std::size_t cell) {
+    std::vector<DexelTile::Below>& row = tile.below[cell / side];
+    const BelowRange old = below_of(row, cell);
+    auto next = old.begin;
+    for (std::size_t i = 0; i + 1 < column_.size(); ++i) {
+        const DexelTile::Below interval{static_cast<std::uint32_t>(cell), static_cast<float>(column_[i].low),
+                                        static_cast<float>(column_[i].high)};
+        const auto end = below_of(row, cell).end;
+        if (next != end) {
+            *next++ = interval;
+        } else {
+            next = row.insert(next, interval) + 1;
+        }
+    }
+    row.erase(next, below_of(row, cell).end);
+    const Dexel top = column_.empty() ? Dexel{} : column_.back();
+    tile.low[cell] = static_cast<float>(top.low);
+    tile.high[cell] = static_cast<float>(top.high);
+}
+
+ColumnRemoval DexelColumns::lower(DexelTile& tile, std::size_t cell, double z) {
+    ColumnRemoval removal{0, tile.high[cell]};
+    while (tile.low[cell] < tile.high[cell] && tile.high[cell] > z) {
+        const double low = std::max<double>(tile.low[cell], z);
+        removal.length += tile.high[cell] - low;
+        tile.high[cell] = static_cast<float>(low);
+        if (tile.high[cell] > tile.low[cell]) break;
+        raise_next(tile, cell);
+    }
+    return removal;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,143 @@
+// The map of one direction of stock_model.h, and the columns of foam in it.
+
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/box.h"
+#include "base/pose.h"
+#include "sim/replay/stock/dexel.h"
+
+namespace qchopper {
+
+struct DexelTile {
+    static constexpr std::int32_t side = 64;
+    static constexpr std::size_t cells = static_cast<std::size_t>(side) * side;
+    struct Below {
+        std::uint32_t cell = 0;
+        float low = 0;
+        float high = 0;
+    };
+    std::vector<float> cut = std::vector<float>(cells, std::numeric_limits<float>::infinity());
+    // The highest interval of each column; low >= high: none is left. Of a tile that no tool came to they are empty.
+    std::vector<float> low, high;
+    // Above this height a column is what is left of the foam; below, foam may stand in it that another direction took.
+    std::vector<float> known_from;
+    std::array<std::vector<Below>, side> below;  // further intervals, per row by cell, of each cell the highest last
+    float min_cut = std::numeric_limits<float>::infinity();
+    // The least of `cut` of each square of 8 x 8 cells: lines far below it pass the square at once.
+    static constexpr std::int32_t square = 8;
+    std::array<float, cells / (square * square)> min_of_square = filled_with_infinity();
+    // The greatest of it, and of the tile, at most: lines above it pass the square through air. measure_most lowers it.
+    std::array<float, cells / (square * square)> max_of_square = filled_with_infinity();
+    float max_cut = std::numeric_limits<float>::infinity();
+    std::uint64_t lowered_squares = 0;  // a bit per square: since measure_most
+    std::uint64_t version = 0;          // of the other maps to which `known_from` refers; 0: there are no columns
+    // Highest foam of each square of 16 x 16 cells; too high is allowed.
+    static constexpr std::int32_t top_square = 16;
+    std::array<float, cells / (top_square * top_square)> top{};
+    static constexpr std::size_t top_of_cell(std::size_t cell) {
+        return cell / side / top_square * (side / top_square) + cell % side / top_square;
+    }
+
+    // Lowers `cut` of a cell, and the least ones with it.
+    void lower_cut(std::size_t cell, float height) {
+        cut[cell] = height;
+        min_cut = std::min(min_cut, height);
+        const std::size_t in =
+            square_of_cut(static_cast<std::int32_t>(cell) % side, static_cast<std::int32_t>(cell) / side);
+        min_of_square[in] = std::min(min_of_square[in], height);
+        lowered_squares |= std::uint64_t{1} << in;
+    }
+    void measure_most();
+    static constexpr std::size_t square_of_cut(std::int32_t x, std::int32_t y) {
+        return static_cast<std::size_t>(y / square) * (side / square) + static_cast<std::size_t>(x / square);
+    }
+
+ private:
+    static std::array<float, cells / (square * square)> filled_with_infinity() {
+        std::array<float, cells / (square * square)> all;
+        all.fill(std::numeric_limits<float>::infinity());
+        return all;
+    }
+};
+
+// Cells of a half-open range.
+struct CellRange {
+    std::int32_t x_begin = 0;
+    std::int32_t x_end = 0;
+    std::int32_t y_begin = 0;
+    std::int32_t y_end = 0;
+};
+
+class DexelMap {
+ public:
+    DexelMap(const Box& block, Vec3 tool_axis, double cell);
+
+    CellRange range(double x_min, double x_max, double y_min, double y_max) const;
+    double centre_x(std::int32_t i) const { return x_min_ + (i + 0.5) * cell_; }
+    double centre_y(std::int32_t j) const { return y_min_ + (j + 0.5) * cell_; }
+    const DexelTile* tile(std::int32_t tx, std::int32_t ty) const { return tiles_[index(tx, ty)].get(); }
+    DexelTile& made_tile(std::int32_t tx, std::int32_t ty);
+    std::int32_t tiles_x() const { return tiles_x_; }
+    std::int32_t tiles_y() const { return tiles_y_; }
+    // Height to which the cell of a point is cleared; infinite outside.
+    float cut_at(double x, double y) const;
+    // Takes from the intervals what was removed along this direction. The line is from + t * along, in this frame.
+    void remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along) const;
+    // Distance from a point of this frame to the nearest removed point of it, at most `most`.
+    double distance_to_removed(Vec3 point, double most) const;
+    // Where the line meets the block; empty if it does not.
+    Dexel block_on(Vec3 from, Vec3 along) const;
+
+    Pose frame_in_block;
+    Box block;
+    double top = 0;             // of the block in this frame
+    std::uint64_t version = 1;  // grows with every change
+
+ private:
+    struct MapLine {
+        Vec3 from;
+        Vec3 along;
+        double per_x = 0;  // 1 / along
+        double per_y = 0;
+        double per_z = 0;
+        double highest(double t, double next) const { return from.z + along.z * (along.z > 0 ? next : t); }
+        double lowest(double t, double next) const { return from.z + along.z * (along.z > 0 ? t : next); }
+    };
+    struct MapCell {
+        std::int32_t i = 0;
+        std::int32_t j = 0;
+    };
+    double remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
+                            double t, double end) const;
+    // From t on, where in a square of `step` cells, a power of 2, the line leaves it, but not beyond `end`.
+    double leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
+                         double end) const {
+        const double x0 = x_min_ + (ci & -step) * cell_;
+        const double y0 = y_min_ + (cj & -step) * cell_;
+        const double size = step * cell_;
+        double next = end;
+        if (line.along.x != 0) next = std::min(next, ((line.along.x > 0 ? x0 + size : x0) - line.from.x) * line.per_x);
+        if (line.along.y != 0) next = std::min(next, ((line.along.y > 0 ? y0 + size : y0) - line.from.y) * line.per_y);
+        return std::min(std::max(next, t), end);
+    }
+    std::size_t index(std::int32_t tx, std::int32_t ty) const { return static_cast<std::size_t>(ty) * tiles_x_ + tx; }
+
+    double cell_;
+    double x_min_ = 0;
+    double y_min_ = 0;
+    std::int32_t tiles_x_ = 0;
+    std::int32_t tiles_y_ = 0;
+    std::vector<std::unique_ptr<DexelTile>> tiles_;
+};
+
+}  // namespace qchopper

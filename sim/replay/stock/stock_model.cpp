@@ -1,0 +1,273 @@
+// Cells under the swept tool, row by row; the height at a cell is that of cutter.h. Volumes are sums over cells in a
+// fixed order.
+
+#include "sim/replay/stock/stock_model.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/error.h"
+#include "sim/replay/stock/dexel_columns.h"
+#include "sim/replay/stock/dexel_map.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double contact_mm = 0.01;
+constexpr std::int32_t side = DexelTile::side;
+constexpr std::int32_t square = DexelTile::top_square;
+
+// The cell of a tile in column i and row j.
+std::size_t cell_of(std::int32_t i, std::int32_t j) {
+    return static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
+}
+
+// mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
+constexpr double known_below = 2;
+
+}  // namespace
+
+StockModel::StockModel(const Box& block, const std::vector<Vec3>& tool_axes, double cell)
+    : block_(block), tool_axes_(tool_axes), cell_(cell) {
+    assert(cell > 0);
+    for (const Vec3 tool_axis : tool_axes) maps_.push_back(std::make_unique<DexelMap>(block, tool_axis, cell));
+    for (std::size_t d = 0; d < maps_.size(); ++d) columns_.push_back(std::make_unique<DexelColumns>(maps_, d));
+}
+
+StockModel::~StockModel() = default;
+
+const Pose& StockModel::frame_in_block(std::size_t orientation) const {
+    return maps_[orientation]->frame_in_block;
+}
+
+namespace {
+
+// How many of the numbers lie in an interval of a length at most. O(n log n).
+std::size_t max_within(std::vector<double>& numbers, double length) {
+    std::sort(numbers.begin(), numbers.end());
+    std::size_t most = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        while (numbers[i] - numbers[first] > length) ++first;
+        most = std::max(most, i + 1 - first);
+    }
+    return most;
+}
+
+// Calls work(tile, tx, ty) for the tiles of a range.
+template <class Work>
+void for_tiles(DexelColumns& columns, const CellRange& cells, const Work& work) {
+    columns.begin();
+    for (std::int32_t ty = cells.y_begin / side; ty * side < cells.y_end; ++ty) {
+        for (std::int32_t tx = cells.x_begin / side; tx * side < cells.x_end; ++tx) work(columns.tile(tx, ty), tx, ty);
+    }
+}
+
+}  // namespace
+
+CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
+    DexelMap& map = *maps_[orientation];
+    DexelColumns& columns = *columns_[orientation];
+    const Vec3 a = apply_inverse(map.frame_in_block, from);
+    const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
+    const SweptCutter swept(cutter, move);
+    const SweptCutter inner(inset_cutter(cutter, contact_mm), move);
+    CutResult result;
+    std::vector<double> deep;  // where along the move foam stands above the flute, of each cell
+    double length = 0;
+    const double r = cutter.radius;
+    const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
+                                      std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
+    const double least = a.z + std::min(0.0, move.z);
+    for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
+        if (tile.max_cut <= least) return;
+        const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
+        for (std::int32_t j = std::max(0, cells.y_begin - ty * side); j < y_end; ++j) {
+            const double y = map.centre_y(ty * side + j) - a.y;
+            double x_min = 0;
+            double x_max = 0;
+            swept.reach_of_row(y, x_min, x_max);
+            const CellRange row = map.range(x_min + a.x, x_max + a.x, 0, 0);
+            const std::int32_t x_end = std::min(row.x_end - tx * side, side);
+            for (std::int32_t i = std::max(0, row.x_begin - tx * side); i < x_end; ++i) {
+                if (tile.max_of_square[DexelTile::square_of_cut(i, j)] <= least) {
+                    i |= DexelTile::square - 1;
+                    continue;
+                }
+                if (tile.cut[cell_of(i, j)] <= least) continue;
+                const double x = map.centre_x(tx * side + i) - a.x;
+                const SweptCutter::Height at = swept.height(x, y);
+                const double z = a.z + at.z;
+                const auto cell = cell_of(i, j);
+                if (!(z < tile.cut[cell])) continue;
+                tile.lower_cut(cell, static_cast<float>(z));
+                if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
+                columns.know(tile, {tx, ty, cell}, z - known_below);
+                const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
+                length += removal.length;
+                if (removal.length <= contact_mm) continue;
+                const SweptCutter::Height inside = inner.height(x, y);
+                if (!(a.z + contact_mm + inside.z < removal.top - contact_mm)) continue;
+                result.touches = true;
+                const double depth = removal.top - (a.z + at.tip_z);
+                result.depth = std::max(result.depth, depth);
+                if (depth > flute) deep.push_back(move.x * x + move.y * y);
+            }
+        }
+        tile.measure_most();
+    });
+    if (length > 0) ++map.version;
+    result.volume = length * cell_ * cell_;
+    const double across = std::hypot(move.x, move.y);
+    result.deep_mm2 = static_cast<double>(max_within(deep, 2 * r * across)) * cell_ * cell_;
+    return result;
+}
+
+double StockModel::disc_contact(std::size_t orientation, double radius, double above, Vec3 from, Vec3 to) {
+    DexelMap& map = *maps_[orientation];
+    DexelColumns& columns = *columns_[orientation];
+    const Vec3 a = apply_inverse(map.frame_in_block, from) + Vec3{0, 0, above};
+    const Vec3 move = apply_inverse(map.frame_in_block, to) + Vec3{0, 0, above} - a;
+    const SweptCutter disc({ToolShape::flat, radius, 0, 0, 1}, move);
+    const double least = a.z + std::min(0.0, move.z);
+    if (least >= map.top) return 0;
+    double worst = 0;
+    const CellRange cells = map.range(std::min(a.x, a.x + move.x) - radius, std::max(a.x, a.x + move.x) + radius,
+                                      std::min(a.y, a.y + move.y) - radius, std::max(a.y, a.y + move.y) + radius);
+    for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
+        for (std::int32_t q = 0; q < square; ++q) {
+            if (tile.top[static_cast<std::size_t>(q)] <= least + worst) continue;
+            const std::int32_t x0 = q % 4 * square;
+            const std::int32_t y0 = q / 4 * square;
+            const std::int32_t x_end = std::min(cells.x_end - tx * side, x0 + square);
+            const std::int32_t y_end = std::min(cells.y_end - ty * side, y0 + square);
+            for (std::int32_t j = std::max(y0, cells.y_begin - ty * side); j < y_end; ++j) {
+                for (std::int32_t i = std::max(x0, cells.x_begin - tx * side); i < x_end; ++i) {
+                    const auto cell = cell_of(i, j);
+                    if (!(tile.low[cell] < tile.high[cell]) || tile.high[cell] <= least + worst) continue;
+                    const SweptCutter::Height at =
+                        disc.height(map.centre_x(tx * side + i) - a.x, map.centre_y(ty * side + j) - a.y);
+                    const double underside = a.z + at.z;
+                    if (!(tile.high[cell] - underside > worst)) continue;
+                    columns.know(tile, {tx, ty, cell}, underside + worst - known_below);
+                    if (tile.low[cell] < tile.high[cell]) worst = std::max(worst, tile.high[cell] - underside);
+                }
+            }
+            // Nothing may have stood as high as was thought.
+            float top = -std::numeric_limits<float>::infinity();
+            for (std::int32_t j = y0; j < y0 + square; ++j) {
+                for (std::int32_t i = x0; i < x0 + square; ++i) {
+                    const auto cell = cell_of(i, j);
+                    if (tile.low[cell] < tile.high[cell]) top = std::max(top, tile.high[cell]);
+                }
+            }
+            tile.top[static_cast<std::size_t>(q)] = top;
+        }
+    });
+    return worst;
+}
+
+namespace {
+
+// In units of 0.01 mm, up; what is off by rounding of such a height alone stays.
+std::int32_t rounded_up(float height) {
+    constexpr double per_mm = 100;
+    constexpr double slack = 0.01;
+    if (std::isinf(height)) return StockTile::not_cut;
+    return static_cast<std::int32_t>(std::ceil(per_mm * height - slack));
+}
+
+StockMap stock_of(const DexelMap& map, Vec3 tool_axis) {
+    StockMap stock{tool_axis, {}};
+    for (std::int32_t ty = 0; ty < map.tiles_y(); ++ty) {
+        for (std::int32_t tx = 0; tx < map.tiles_x(); ++tx) {
+            const DexelTile* tile = map.tile(tx, ty);
+            if (tile == nullptr || std::isinf(tile->min_cut)) continue;
+            StockTile& cells = stock.tiles.emplace_back(StockTile{tx, ty, {}});
+            cells.height.reserve(DexelTile::cells);
+            for (const float height : tile->cut) cells.height.push_back(rounded_up(height));
+        }
+    }
+    return stock;
+}
+
+bool is_equal(Vec3 a, Vec3 b) {
+    return norm(a - b) <= 1e-6;
+}
+
+[[noreturn]] void refuse_stock(const char* why) {
+    throw InputError(InputFault::mesh, std::string("the stock that the part before left is of ") + why,
+                     "write the jobs of the piece again with qchopper prepare");
+}
+
+void lower(DexelMap& map, const StockMap& stock) {
+    for (const StockTile& cells : stock.tiles) {
+        if (cells.tx >= map.tiles_x() || cells.ty >= map.tiles_y()) refuse_stock("another block");
+        DexelTile& tile = map.made_tile(cells.tx, cells.ty);
+        for (std::size_t cell = 0; cell < DexelTile::cells; ++cell) {
+            if (cells.height[cell] == StockTile::not_cut) continue;
+            tile.lower_cut(cell, static_cast<float>(0.01 * cells.height[cell]));
+        }
+        tile.measure_most();
+    }
+    ++map.version;
+}
+
+}  // namespace
+
+StockRecord StockModel::record() const {
+    StockRecord stock{block_, cell_, {}, {}};
+    for (std::size_t d = 0; d < maps_.size(); ++d) stock.maps.push_back(stock_of(*maps_[d], tool_axes_[d]));
+    return stock;
+}
+
+void StockModel::start_from(const StockRecord& stock) {
+    if (!is_equal(stock.block.min, block_.min) || !is_equal(stock.block.max, block_.max)) refuse_stock("another block");
+    if (stock.cell != cell_) refuse_stock("other cells");
+    if (stock.maps.size() != maps_.size()) refuse_stock("other directions");
+    for (std::size_t d = 0; d < maps_.size(); ++d) {
+        if (!is_equal(stock.maps[d].tool_axis, tool_axes_[d])) refuse_stock("other directions");
+    }
+    for (std::size_t d = 0; d < maps_.size(); ++d) lower(*maps_[d], stock.maps[d]);
+}
+
+bool StockModel::is_in_stock(Vec3 p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] <= block_.min[axis] || p[axis] >= block_.max[axis]) return false;
+    }
+    for (const auto& map : maps_) {
+        const Vec3 q = apply_inverse(map->frame_in_block, p);
+        if (q.z > map->cut_at(q.x, q.y)) return false;
+    }
+    return true;
+}
+
+std::vector<Dexel> StockModel::on_line(Vec3 from, Vec3 along, double low, double high) const {
+    const DexelMap& first = *maps_.front();
+    const Dexel inside =
+        first.block_on(apply_inverse(first.frame_in_block, from), rotate_inverse(first.frame_in_block, along));
+    std::vector<Dexel> stock_model;
+    if (std::max(low, inside.low) < std::min(high, inside.high)) {
+        stock_model.push_back({std::max(low, inside.low), std::min(high, inside.high)});
+    }
+    for (const auto& map : maps_) {
+        map->remove_from(stock_model, apply_inverse(map->frame_in_block, from),
+                         rotate_inverse(map->frame_in_block, along));
+    }
+    return stock_model;
+}
+
+double StockModel::distance_to_removed(Vec3 p, double most) const {
+    double best = most;
+    for (const double side_distance :
+         {p.x - block_.min.x, block_.max.x - p.x, p.y - block_.min.y, block_.max.y - p.y, block_.max.z - p.z}) {
+        best = std::min(best, std::max(0.0, side_distance));
+    }
+    for (const auto& map : maps_) {
+        best = std::min(best, map->distance_to_removed(apply_inverse(map->frame_in_block, p), best));
+    }
+    return best;
+}
+
+}  // namespace qchopper
