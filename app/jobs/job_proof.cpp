@@ -116,7 +116,7 @@ ReplayScene scene_of(const ProofInput& input) {
     const Setup setup = with_drill_orientations(input.setup, input.program.drilling);
     const std::size_t own = input.setup.access.orientations.size();
     for (std::size_t d = 0; d < setup.access.orientations.size(); ++d) {
-        const Vec3 tool_axis = setup.tool_axis(d);
+        const Vec3 tool_axis = normalized(setup.tool_axis(d));
         const Pose frame = d < own ? input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)]
                                    : setup_in_cell(input.cell, setup.spoil, setup.placement, d);
         scene.orientations.push_back({tool_axis, setup.placement.table_angle(d), frame});

@@ -202,19 +202,19 @@ TEST(JobCaps, AForgedHoleIsRefused) {
         lying = job.setup.piece_in_setup;
     }
     ASSERT_FALSE(caps.empty());
-    EXPECT_EQ(to_caps(as_read(caps), lying, 6), caps);
+    EXPECT_EQ(to_caps(as_read(caps), lying), caps);
     std::vector<JobCap> forged = caps;
     forged[0].joints[0].holes[0].point.x += 0.01;
-    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].axis = -forged[0].joints[0].holes[0].axis;
-    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].number = 7;
-    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].by_robot = true;  // and a reason for the hand
-    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
     EXPECT_NE(fault_of_templates(caps, {}).find("missing"), std::string::npos);
     EXPECT_NE(fault_of_templates({}, {{"template-9.svg", {}}}).find("no cap"), std::string::npos);
 }
