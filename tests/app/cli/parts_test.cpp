@@ -5,14 +5,14 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "app/project/hand_over.h"
+#include "app/dispatch/hand_over.h"
 #include "base/error.h"
+#include "base/files/zip.h"
 #include "base/hex.h"
 #include "base/sha256.h"
-#include "base/zip.h"
-#include "devices/modbus_tcp.h"
-#include "sim/cell_sim.h"
-#include "sim/replay/stock.h"
+#include "devices/wire/modbus_tcp.h"
+#include "sim/cell/cell_sim.h"
+#include "sim/replay/stock/stock.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -30,27 +30,24 @@ std::string replaced(std::string text, const std::string& old, const std::string
 struct Parts : ::testing::Test {
     program::Folder folder;
     program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
-    void SetUp() override { ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0); }
 
     // A small vertebra for a controller of so many bytes: made once, then copied.
     void prepare(const std::string& memory, const std::string& project) const {
         static std::map<std::string, program::Folder> made;
         const auto [it, is_new] = made.try_emplace(memory);
-        if (is_new) {
-            make(memory, project);
-            fs::copy(folder.path, it->second.path, fs::copy_options::recursive);
-            fs::rename(it->second.path / project, it->second.path / "made.qch");
-            return;
-        }
+        if (is_new) make(it->second.path, memory);
         fs::copy(it->second.path / "cell.toml", folder.path, fs::copy_options::overwrite_existing);
         fs::copy(it->second.path / "made.qch", folder.path / project, fs::copy_options::recursive);
     }
-    void make(const std::string& memory, const std::string& project) const {
+    static void make(const fs::path& where, const std::string& memory) {
+        const program::RunOptions here{where};
+        ASSERT_EQ(program::run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}, here).code, 0);
         const std::string cell = program::bytes_in(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
-        program::put(folder.path / "cell.toml", replaced(cell, "memory_bytes = 3000000", "memory_bytes = " + memory));
-        const program::Ended made = run({"prepare", "v.ply", "--units", "mm", "--scale", "0.15", "--cell", "cell.toml",
-                                         "--min-cuts", "0", "-o", project});
-        ASSERT_LE(made.code, 1) << made.err;  // 1: the piece is not proven, its jobs are there
+        program::put(where / "cell.toml", replaced(cell, "memory_bytes = 3000000", "memory_bytes = " + memory));
+        const program::Arguments prepare{"prepare", "v.ply",     "--units",    "mm", "--scale", "0.15",
+                                         "--cell",  "cell.toml", "--min-cuts", "0",  "-o",      "made.qch"};
+        const program::Ended ended = program::run(prepare, here);
+        ASSERT_LE(ended.code, 1) << ended.err;  // 1: the piece is not proven, its jobs are there
     }
     fs::path job(const std::string& name) const { return folder.path / "p.qch" / "jobs" / name; }
     json verdict(const std::string& project, const std::string& name) const {
