@@ -150,12 +150,12 @@ class SizeQuestion(InFolder):
         return asked.wait(), asked
 
     def test_is_asked_on_a_terminal(self):
-        for arguments, size in ((self.repair, "3.4 mm x 1.6 mm x 3.2 mm"), (self.make, "344.")):
-            code, asked = self.ask([*arguments, "refused"  + (".ply" if arguments[0] == "repair" else ".qch")], b"n")
+        for arguments, size in ((self.repair, "3.44 mm x 1.63 mm x 3.17 mm"), (self.make, "344")):
+            code, asked = self.ask([*arguments, "refused" + (".ply" if arguments[0] == "repair" else ".qch")], b"n")
             self.assertEqual(code, 64, asked.output)
             self.assertEqual(asked.answered, 1, asked.output)
             self.assertIn(size, asked.output)
-            code, asked = self.ask([*arguments, "taken"  + (".ply" if arguments[0] == "repair" else ".qch")], b"y")
+            code, asked = self.ask([*arguments, "taken" + (".ply" if arguments[0] == "repair" else ".qch")], b"y")
             self.assertEqual(code, 0, asked.output)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir() if path.name[0] in "rt"),
                          ["taken.ply", "taken.qch"])
