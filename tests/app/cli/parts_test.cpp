@@ -5,14 +5,14 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "app/dispatch/hand_over.h"
+#include "app/project/hand_over.h"
 #include "base/error.h"
-#include "base/files/zip.h"
 #include "base/hex.h"
 #include "base/sha256.h"
-#include "devices/wire/modbus_tcp.h"
-#include "sim/cell/cell_sim.h"
-#include "sim/replay/stock/stock.h"
+#include "base/zip.h"
+#include "devices/modbus_tcp.h"
+#include "sim/cell_sim.h"
+#include "sim/replay/stock.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
