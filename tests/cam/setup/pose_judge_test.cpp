@@ -352,7 +352,7 @@ void compare(const Cell& cell, int count, std::mt19937& random, Verdicts& verdic
     const Robot& robot = *cell.machine->robot;
     const ToolArm arm = tool_arm(robot, cell.machine->spindle, tool);
     const Pose setup = setup_in_cell(cell, 12, {20, -30, 0.3, {}}, 0);
-    const StandingBlock block = judge.standing(setup, {300, 400, 250}, 12);
+    const StandingBlock block = judge.standing(setup, {{-150, -200, -12}, {150, 200, 238}});
     std::uniform_real_distribution<double> unit(0, 1);
     for (int done = 0; done < count;) {
         const double z = 0.2 + 0.8 * unit(random);
@@ -418,7 +418,7 @@ void count_refused_alone(double speed, std::array<int, pose_checks>& alone) {
     PoseJudge judge(cell, longest_tool(cell.machine->tools));
     const ToolArm arm = tool_arm(robot, cell.machine->spindle, longest_tool(cell.machine->tools));
     const Pose setup = setup_in_cell(cell, 12, {}, 0);
-    const StandingBlock block = judge.standing(setup, {300, 400, 250}, 12);
+    const StandingBlock block = judge.standing(setup, {{-150, -200, -12}, {150, 200, 238}});
     std::mt19937 random(4);
     for (int i = 0; i < 60'000; ++i) {
         Joints joints{};
