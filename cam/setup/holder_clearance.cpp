@@ -1,62 +1,26 @@
-// The highest surface under a disc is found row by row of the disc: each is a window of some width, and the largest
-// value in a window is the larger of those in two windows of a power of two that cover it, which are doubled in place
-// (H. Yuan and M. J. Atallah, "Data structures for range minimum queries in multidimensional arrays", 2010, have the
-// same for rectangles). O(cells x rows of the disc), two further maps of the wider cells.
+// Each step of holder and spindle is a disc under which the highest surface is found (segment/raster/disc_dilation.h).
+// O(cells x rows of the disc) of the wider cells, three further maps of them.
 
 #include "cam/setup/holder_clearance.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/parallel.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
 
 // Raises `limit` to the highest surface within a radius, less `drop`.
 void dilate_to_disc(HeightField& limit, const HeightField& map, double radius, double drop) {
-    const auto reach = static_cast<std::size_t>(radius / map.cell);
-    // Rows of the disc by the largest power of two that fits into them.
-    struct DiscRow {
-        std::ptrdiff_t row;
-        std::size_t half;  // cells on each side of the middle
-    };
-    std::vector<std::vector<DiscRow>> by_level(static_cast<std::size_t>(std::bit_width(2 * reach + 1)));
-    for (std::ptrdiff_t row = -static_cast<std::ptrdiff_t>(reach); row <= static_cast<std::ptrdiff_t>(reach); ++row) {
-        const double across = static_cast<double>(row) * map.cell;
-        // The outermost row may lie beyond the radius by rounding.
-        const double square = std::max(0.0, radius * radius - across * across);
-        const auto half = static_cast<std::size_t>(std::sqrt(square) / map.cell);
-        by_level[static_cast<std::size_t>(std::bit_width(2 * half + 1)) - 1].push_back({row, half});
-    }
-    // Highest surface in the 2^level cells from each one on; a border on both sides, so that windows may begin there.
-    const std::size_t columns = map.columns + 2 * reach;
-    std::vector<float> window(columns * map.rows, HeightField::nothing);
-    for (std::size_t row = 0; row < map.rows; ++row) {
-        std::copy_n(&map.height[row * map.columns], map.columns, &window[row * columns + reach]);
-    }
-    for (std::size_t level = 0; level < by_level.size(); ++level) {
-        const std::size_t width = std::size_t{1} << level;
-        parallel_for(0, map.rows, [&](std::size_t row) {
-            float* own = &limit.height[row * map.columns];
-            for (const DiscRow& part : by_level[level]) {
-                const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(row) + part.row;
-                if (from < 0 || from >= static_cast<std::ptrdiff_t>(map.rows)) continue;
-                const float* first = &window[static_cast<std::size_t>(from) * columns + reach - part.half];
-                const float* last = first + (2 * part.half + 1 - width);
-                for (std::size_t c = 0; c < map.columns; ++c) {
-                    own[c] = std::max(own[c], std::max(first[c], last[c]) - static_cast<float>(drop));
-                }
-            }
-        });
-        parallel_for(0, map.rows, [&](std::size_t row) {
-            float* own = &window[row * columns];
-            for (std::size_t c = 0; c + width < columns; ++c) own[c] = std::max(own[c], own[c + width]);
-        });
+    const HeightField highest = dilate_by_disc(map, radius);
+    const auto less = static_cast<float>(drop);
+    for (std::size_t i = 0; i < limit.height.size(); ++i) {
+        limit.height[i] = std::max(limit.height[i], highest.height[i] - less);
     }
 }
 
