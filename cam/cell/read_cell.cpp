@@ -296,7 +296,7 @@ void refuse_version_1(const TomlReader& root) {
     if (root.has("version") && root.whole("version", 1, 2) == 2) return;
     root.refuse("version", "cell files of version 1 are not read any more",
                 "write version = 2, its margins as [margin], its tool as [[tool]] with shape, lengths and holder: "
-                "cells/foam-1.toml is such a file without a robot, docs/cell-file.md explains every key");
+                "cells/foam-1.toml is such a file without a robot, docs/user/cell-file.md explains every key");
 }
 
 }  // namespace

@@ -398,7 +398,7 @@ Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell&
     assert(!setup.access.orientations.empty());
     if (!cell.machine) {
         throw InputError(InputFault::config, "the cell file describes no machine",
-                         "give a cell file with spindle and tools, docs/cell-file.md");
+                         "give a cell file with spindle and tools, docs/user/cell-file.md");
     }
     ToolpathMaker maker(setup, mesh, cell, settings, context);
     Toolpath toolpath = maker.make();

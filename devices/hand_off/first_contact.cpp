@@ -78,7 +78,8 @@ std::optional<double> pause_before_next_contact(const HandOffInput& failed, int 
 ContactFailure contact_failure(const HandOffInput& failed) {
     if (failed.fault == BlockFault::version) {
         return {DeviceFault::protocol, "the cell does not follow register map 1.1: its STATUS is of another version",
-                "Bring its controller program to register map 1.1 (docs/registers.md); check address and port."};
+                "Bring its controller program to register map 1.1 (docs/developer/formats/registers.md); check address "
+                "and port."};
     }
     if (failed.fault != BlockFault::none) {
         return {DeviceFault::protocol,

@@ -6,7 +6,7 @@
 
 namespace qchopper {
 
-// The text of docs/registers.md.
+// The text of docs/developer/formats/registers.md.
 std::string print_registers();
 
 }  // namespace qchopper
