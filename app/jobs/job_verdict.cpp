@@ -1,69 +1,60 @@
-// JSON of one object. O(findings).
+// One table per object of the JSON. O(findings).
 
 #include "app/jobs/job_verdict.h"
 
 #include <cassert>
-#include <limits>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/json.h"
+#include "base/json_fields.h"
 
 namespace qchopper {
 
 using namespace json_values;
 
-namespace {
-
-constexpr const char* format_name = "qchopper verdict";
-constexpr std::uint32_t schema = 2;
-
-Json from_figure(const ProofFigure& figure) {
-    return {{"key", figure.key},
-            {"name", figure.name},
-            {"value", figure.value},
-            {"unit", figure.unit},
-            {"decimals", figure.decimals}};
-}
-
-ProofFigure to_figure(const Json& json) {
+template <class V, Of<ProofFigure> T>
+void fields(V& v, T& figure) {
     constexpr int max_decimals = 9;
-    return {json_values::text(json, "key"), json_values::text(json, "name"), real(json, "value"),
-            json_values::text(json, "unit"), static_cast<int>(whole_up_to(json, "decimals", max_decimals))};
+    v("key", figure.key);
+    v("name", figure.name);
+    v("value", figure.value);
+    v("unit", figure.unit);
+    v("decimals", figure.decimals);
+    v.check(figure.decimals >= 0 && figure.decimals <= max_decimals, "decimals", "is not a whole number in bounds");
 }
 
-Json from_finding(const VerdictFinding& finding) {
-    return {{"kind", finding.kind}, {"file", finding.file}, {"line", finding.line}, {"text", finding.text}};
+template <class V, Of<VerdictFinding> T>
+void fields(V& v, T& finding) {
+    v("kind", finding.kind);
+    v("file", finding.file);
+    v("line", finding.line);
+    v("text", finding.text);
 }
 
-VerdictFinding to_finding(const Json& json) {
-    return {json_values::text(json, "kind"), json_values::text(json, "file"), whole<std::uint32_t>(json, "line"),
-            json_values::text(json, "text")};
+template <class V, Of<JobVerdict> T>
+void fields(V& v, T& verdict) {
+    v.constant("format", "qchopper verdict", "is not a qchopper verdict");
+    v.version("schema", 2);
+    v("piece", verdict.piece);
+    v.object("job", [&](auto& job) {
+        job("name", verdict.job);
+        job("sha256", verdict.job_sha256);
+    });
+    v.object("cell", [&](auto& cell) {
+        cell("name", verdict.cell);
+        cell("sha256", verdict.cell_sha256);
+    });
+    v.object("program", [&](auto& program) {
+        program.constant("name", "qchopper", "is not qchopper");
+        program("version", verdict.program_version);
+    });
+    v("positive", verdict.is_positive);
+    v("figures", verdict.figures);
+    v("findings", verdict.findings);
+    v("findings_left_out", verdict.findings_left_out);
+    v("notes", verdict.notes);
+    v.check(!verdict.is_positive || verdict.findings.empty(), "positive", "contradicts the findings");
 }
-
-JobVerdict to_verdict(const Json& json) {
-    if (json_values::text(json, "format") != format_name) throw wrong("format", "is not a qchopper verdict");
-    if (whole<std::uint32_t>(json, "schema") != schema) throw wrong("schema", "is not 2");
-    JobVerdict verdict;
-    verdict.piece = json_values::text(json, "piece");
-    const Json& job = member(json, "job");
-    verdict.job = json_values::text(job, "name");
-    verdict.job_sha256 = {from_hex<32>(job, "sha256")};
-    const Json& cell = member(json, "cell");
-    verdict.cell = json_values::text(cell, "name");
-    verdict.cell_sha256 = {from_hex<32>(cell, "sha256")};
-    verdict.program_version = json_values::text(member(json, "program"), "version");
-    verdict.is_positive = truth(json, "positive");
-    for (const Json& figure : items(json, "figures")) verdict.figures.push_back(to_figure(figure));
-    for (const Json& finding : items(json, "findings")) verdict.findings.push_back(to_finding(finding));
-    verdict.notes = texts(json, "notes");
-    verdict.findings_left_out = whole<std::uint32_t>(json, "findings_left_out");
-    if (verdict.is_positive && !verdict.findings.empty()) throw wrong("positive", "contradicts the findings");
-    return verdict;
-}
-
-}  // namespace
 
 std::string describe(const VerdictFinding& finding) {
     if (finding.file.empty()) return finding.text;
@@ -73,28 +64,13 @@ std::string describe(const VerdictFinding& finding) {
 
 std::string to_json(const JobVerdict& verdict) {
     assert(verdict.findings.size() <= max_listed_findings);
-    Json figures = Json::array();
-    for (const ProofFigure& figure : verdict.figures) figures.push_back(from_figure(figure));
-    Json findings = Json::array();
-    for (const VerdictFinding& finding : verdict.findings) findings.push_back(from_finding(finding));
-    return written({{"format", format_name},
-                    {"schema", schema},
-                    {"piece", verdict.piece},
-                    {"job", {{"name", verdict.job}, {"sha256", to_hex(verdict.job_sha256)}}},
-                    {"cell", {{"name", verdict.cell}, {"sha256", to_hex(verdict.cell_sha256)}}},
-                    {"program", {{"name", "qchopper"}, {"version", verdict.program_version}}},
-                    {"positive", verdict.is_positive},
-                    {"figures", figures},
-                    {"findings", findings},
-                    {"findings_left_out", verdict.findings_left_out},
-                    {"notes", verdict.notes}});
+    return to_document(verdict);
 }
 
 JobVerdict job_verdict_from_json(std::string_view text, const std::string& source) {
     try {
-        const Json json = parsed(text);
-        JobVerdict verdict = to_verdict(json);
-        check_form(json, text);
+        JobVerdict verdict;
+        from_document(text, verdict);
         return verdict;
     } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + " is not a verdict: " + error.what(),

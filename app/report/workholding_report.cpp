@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "cam/job/workholding_json.h"
+#include "cam/job/setup_fields.h"
 
 namespace qchopper {
 
@@ -15,9 +15,11 @@ std::string workholding_word(const Setup& setup) {
 
 nlohmann::ordered_json workholding_json(const Setup& setup) {
     if (!setup.workholding) return nullptr;
-    nlohmann::ordered_json json = from_workholding(*setup.workholding);
-    json["problem"] = workholding_problem(*setup.workholding);
-    json["remedy"] = workholding_remedy(*setup.workholding);
+    nlohmann::ordered_json json;
+    json_values::Writer writer(json);
+    fields(writer, *setup.workholding);
+    writer("problem", workholding_problem(*setup.workholding));
+    writer("remedy", workholding_remedy(*setup.workholding));
     return json;
 }
 

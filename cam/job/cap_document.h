@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -17,11 +16,14 @@
 namespace qchopper {
 
 // Precondition: all numbers are finite.
-nlohmann::ordered_json from_caps(const std::vector<JobCap>& caps);
+void put(nlohmann::ordered_json& at, const JobCap& cap);
 
-// The inverse. Throws std::runtime_error that names the key and the reason: also where the point or the axis of a hole
-// in setup coordinates is not that of its cap by more than 1e-6.
-std::vector<JobCap> to_caps(const nlohmann::ordered_json& json, const Pose& piece_in_setup);
+// The inverse. Throws std::runtime_error that names the key and the reason.
+void take(const nlohmann::ordered_json& json, const std::string& key, JobCap& cap);
+
+// Throws the same unless caps and holes are in order, and point and axis of each hole in setup coordinates are those of
+// its cap, to 1e-6.
+void check_caps(const std::vector<JobCap>& caps, const Pose& piece_in_setup);
 
 // Why the templates of a job do not belong to its caps: one that is missing, or one of no cap. Empty: they do.
 std::string fault_of_templates(const std::vector<JobCap>& caps, const std::map<std::string, Bytes>& files);

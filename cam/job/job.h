@@ -69,7 +69,7 @@ struct JobEntry {
     bool operator==(const JobEntry&) const = default;
 };
 
-// A job file that was read and passed all checks of parse_job.
+// A job as its manifest tells it, and, when a job file was read and passed all checks of parse_job, with its files.
 struct ReadJob {
     std::string piece;
     std::uint16_t piece_no = 0;
@@ -77,13 +77,16 @@ struct ReadJob {
     std::string program_version;
     Uuid project_id{};
     Sha256 scan_sha256;
+    std::string cell;  // its name
     std::uint16_t cell_id = 0;
     Setup setup;  // as it was written
     std::vector<Alternative> alternatives;
-    double max_unreachable = 0;          // share, 0..1
-    std::string block_name;              // in the cell's list of stock
-    std::vector<HalfSpace> half_spaces;  // in piece coordinates
-    std::vector<JobCap> caps;            // that are joined to other pieces, by their cuts
+    double max_unreachable = 0;                 // share, 0..1
+    std::string block_name;                     // in the cell's list of stock
+    Material material = Material::unspecified;  // of the block
+    double margin = 0;                          // of foam around the piece
+    std::vector<HalfSpace> half_spaces;         // in piece coordinates
+    std::vector<JobCap> caps;                   // that are joined to other pieces, by their cuts
     StockFit stock_fit;
     bool is_arm_checked = false;      // whether envelope.json tells of poses
     bool holds_poses = true;          // whether the machine holds all of them; true where they are not checked
@@ -91,9 +94,10 @@ struct ReadJob {
     std::uint64_t faces = 0;
     double volume_mm3 = 0;
     std::optional<JobProgram> program;
-    std::string no_program_because;  // empty where there is one
+    std::string no_program_because;     // empty where there is one
+    std::vector<std::string> warnings;  // of the project
+    std::vector<JobEntry> entries;      // every file but the manifest
     TicketTemplate ticket;
-    std::vector<JobEntry> entries;       // every file but the manifest
     std::map<std::string, Bytes> files;  // all by name, the manifest too
     std::uint32_t file_size = 0;         // of the .qjob itself
     Sha256 file_sha256;

@@ -17,11 +17,11 @@
 
 namespace qchopper {
 
-// A list of one program, or of none. Precondition: all numbers are finite.
-nlohmann::ordered_json from_program(const std::optional<JobProgram>& program);
+// Precondition: all numbers are finite.
+void put(nlohmann::ordered_json& at, const JobProgram& program);
 
 // The inverse. Throws std::runtime_error that names the key and the reason.
-std::optional<JobProgram> to_program(const nlohmann::ordered_json& json);
+void take(const nlohmann::ordered_json& json, const std::string& key, JobProgram& program);
 
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -46,6 +47,16 @@ struct JobTicket {
     Sha256 file_sha256;
     bool operator==(const JobTicket&) const = default;
 };
+
+// The words of materials in documents (base/json_fields.h).
+struct MaterialNames {
+    std::string operator()(Material material) const { return to_word(material); }
+    std::optional<Material> operator()(std::string_view word) const { return material_of(word); }
+    std::string refusal() const { return "is not one of the known materials"; }
+};
+inline MaterialNames names_of(Material /*any*/) {
+    return {};
+}
 
 // The template as a JSON text of one object. Precondition: all numbers are finite.
 std::string to_json(const TicketTemplate& about);

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/zip.h"
+#include "base/json_fields.h"
 #include "cam/job/cap_document.h"
 #include "cam/job/read_job.h"
 #include "cam/job/sheet/cap_template.h"
@@ -187,9 +188,14 @@ TEST(JobCaps, OfEveryHoleItIsSaidWhoDrillsIt) {
               (std::vector<std::string>{"", "its cap is the base", "the piece stands over it", "there is no program"}));
 }
 
-// As the text of a manifest gives it back.
-nlohmann::ordered_json as_read(const std::vector<JobCap>& caps) {
-    return nlohmann::ordered_json::parse(from_caps(caps).dump());
+// As a manifest gives them back.
+std::vector<JobCap> as_read(const std::vector<JobCap>& caps, const Pose& lying) {
+    nlohmann::ordered_json json;
+    json_values::put(json, caps);
+    std::vector<JobCap> read;
+    json_values::take(nlohmann::ordered_json::parse(json.dump()), "caps", read);
+    check_caps(read, lying);
+    return read;
 }
 
 TEST(JobCaps, AForgedHoleIsRefused) {
@@ -202,19 +208,19 @@ TEST(JobCaps, AForgedHoleIsRefused) {
         lying = job.setup.piece_in_setup;
     }
     ASSERT_FALSE(caps.empty());
-    EXPECT_EQ(to_caps(as_read(caps), lying), caps);
+    EXPECT_EQ(as_read(caps, lying), caps);
     std::vector<JobCap> forged = caps;
     forged[0].joints[0].holes[0].point.x += 0.01;
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(as_read(forged, lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].axis = -forged[0].joints[0].holes[0].axis;
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(as_read(forged, lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].number = 7;
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(as_read(forged, lying), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].by_robot = true;  // and a reason for the hand
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(as_read(forged, lying), std::runtime_error);
     EXPECT_NE(fault_of_templates(caps, {}).find("missing"), std::string::npos);
     EXPECT_NE(fault_of_templates({}, {{"template-9.svg", {}}}).find("no cap"), std::string::npos);
 }

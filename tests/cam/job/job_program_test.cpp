@@ -188,10 +188,12 @@ using Change = std::function<void(nlohmann::ordered_json& program)>;
 
 // What a reader says of the program after a change.
 std::string fault_after(const Change& change) {
-    nlohmann::ordered_json json = from_program(some_program().program);
-    change(json.front());
+    nlohmann::ordered_json json;
+    put(json, some_program().program);
+    change(json);
     try {
-        to_program(json);
+        JobProgram program;
+        take(json, "programs", program);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
