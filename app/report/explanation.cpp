@@ -8,9 +8,9 @@
 
 #include "app/report/columns.h"
 #include "app/report/objective_terms.h"
+#include "app/report/report_json.h"
 #include "app/report/segment_report.h"
 #include "app/store/project_lines.h"
-#include "app/store/value_json.h"
 #include "base/text.h"
 
 namespace qchopper {

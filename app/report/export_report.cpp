@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/report_json.h"
 #include "app/report/segment_report.h"
 #include "app/store/project_lines.h"
-#include "app/store/value_json.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/report/columns.h"
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 #include "base/text.h"
 #include "segment/import/import_scan.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 #include "base/text.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"

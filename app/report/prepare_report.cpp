@@ -10,11 +10,11 @@
 #include "app/report/joint_report.h"
 #include "app/report/machine_reachability_report.h"
 #include "app/report/program_report.h"
+#include "app/report/report_json.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
-#include "app/store/value_json.h"
 #include "base/shell_word.h"
 #include "base/text.h"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 #include "base/text.h"
 #include "segment/mesh/measure.h"
 

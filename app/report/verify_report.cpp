@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "base/uuid.h"

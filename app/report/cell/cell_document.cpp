@@ -6,7 +6,7 @@
 
 #include "app/report/cell/cell_report.h"
 #include "app/report/machine_reachability_report.h"
-#include "app/store/value_json.h"
+#include "app/report/report_json.h"
 
 namespace qchopper {
 namespace {

@@ -1,0 +1,26 @@
+// What the JSON documents of the commands have in common.
+
+#pragma once
+
+#include <string>
+
+#include "app/store/value_fields.h"
+#include "base/json_fields.h"
+
+namespace qchopper {
+
+// A value by its table of fields.
+template <class T, class Json = json_values::Json>  // a parameter, because here it is only declared
+Json json_of(const T& value) {
+    Json json;
+    json_values::put(json, value);
+    return json;
+}
+
+// What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
+void add_scan(nlohmann::ordered_json& document, const Project& project);
+
+// The text of a document, indented by one space a level; bytes that are not UTF-8 are replaced. No line end.
+std::string text_of(const nlohmann::ordered_json& document);
+
+}  // namespace qchopper
