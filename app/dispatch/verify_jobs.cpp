@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-VerdictFinding finding(const char* kind, const std::string& text) {
+ProofFinding finding(const char* kind, const std::string& text) {
     return {kind, "", 0, text};
 }
 
@@ -40,8 +40,8 @@ bool is_near(const Pose& a, const Pose& b) {
 }
 
 // What of the job contradicts the cell file.
-std::vector<VerdictFinding> faults_against_cell(const ReadJob& job, const Cell& cell) {
-    std::vector<VerdictFinding> faults;
+std::vector<ProofFinding> faults_against_cell(const ReadJob& job, const Cell& cell) {
+    std::vector<ProofFinding> faults;
     if (job.cell_id != cell.id) {
         faults.push_back(finding("other_cell", "the job is made for cell " + std::to_string(job.cell_id) +
                                                    ", and the cell file describes cell " + std::to_string(cell.id)));
@@ -105,7 +105,7 @@ JobVerdict without_findings(const ReadJob& job, const std::string& job_file, con
 
 // Rotation alone is not asked: the piece of the project is laid as the job says, by a pose of determinant +1, and has
 // to be the job's mesh triangle for triangle.
-std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std::string& job_file, const Piece& piece) {
+std::optional<ProofFinding> fault_against_piece(const ReadJob& job, const std::string& job_file, const Piece& piece) {
     constexpr double tolerance = 1e-3;  // mm; piece.stl is single precision
     const TriangleMesh expected = apply(job.setup.piece_in_setup, *piece.mesh);
     const TriangleMesh found = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
@@ -125,7 +125,7 @@ std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std:
 }
 
 // What of the job's setup is not that which the project has for the piece.
-std::optional<VerdictFinding> fault_against_setup(const ReadJob& job, const Setup& own) {
+std::optional<ProofFinding> fault_against_setup(const ReadJob& job, const Setup& own) {
     if (job.setup == own) return std::nullopt;
     const std::string text = "the setup of the job is not that of the project for piece " + job.piece;
     const std::size_t directions = job.setup.access.orientations.size();
@@ -138,9 +138,8 @@ std::optional<VerdictFinding> fault_against_setup(const ReadJob& job, const Setu
 }
 
 // What of the job contradicts the project: no such piece, another mesh, another setup, other holes.
-std::vector<VerdictFinding> faults_against_project(const ReadJob& job, const std::string& job_file,
-                                                   OpenProject& project, std::span<const PieceJoint> joints,
-                                                   const Cell& cell) {
+std::vector<ProofFinding> faults_against_project(const ReadJob& job, const std::string& job_file, OpenProject& project,
+                                                 std::span<const PieceJoint> joints, const Cell& cell) {
     const std::vector<Piece>& pieces = project.segmentation().pieces;
     const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == job.piece; });
     if (piece == pieces.end()) return {finding("other_piece", "the project has no piece " + job.piece)};
@@ -161,7 +160,7 @@ struct PartBefore {
 };
 
 // What speaks against a part coming after the one that was verified before it.
-std::optional<VerdictFinding> fault_against_part_before(const ReadJob& job, const PartBefore& before) {
+std::optional<ProofFinding> fault_against_part_before(const ReadJob& job, const PartBefore& before) {
     if (!job.program || job.program->part.number == 1) return std::nullopt;
     const JobPart& part = job.program->part;
     const std::string number = std::to_string(part.number - 1);

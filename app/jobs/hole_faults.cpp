@@ -56,7 +56,7 @@ class HoleComparison {
         }
     }
 
-    std::vector<VerdictFinding> take() { return std::move(faults_); }
+    std::vector<ProofFinding> take() { return std::move(faults_); }
 
  private:
     static std::string name_of(const JointHole& own) { return "hole " + std::to_string(own.hole.number); }
@@ -121,13 +121,13 @@ class HoleComparison {
     std::string piece_;
     std::vector<JointHole> job_;
     std::vector<JointHole> project_;
-    std::vector<VerdictFinding> faults_;
+    std::vector<ProofFinding> faults_;
 };
 
 }  // namespace
 
-std::vector<VerdictFinding> hole_faults(const std::string& piece, const std::vector<JobCap>& job,
-                                        const std::vector<JobCap>& project) {
+std::vector<ProofFinding> hole_faults(const std::string& piece, const std::vector<JobCap>& job,
+                                      const std::vector<JobCap>& project) {
     return HoleComparison(piece, job, project).take();
 }
 

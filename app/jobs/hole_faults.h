@@ -16,7 +16,7 @@ namespace qchopper {
 
 // Who drills a hole is not compared: that follows from the program. Precondition: both stand in the same setup.
 // O(holes squared).
-std::vector<VerdictFinding> hole_faults(const std::string& piece, const std::vector<JobCap>& job,
-                                        const std::vector<JobCap>& project);
+std::vector<ProofFinding> hole_faults(const std::string& piece, const std::vector<JobCap>& job,
+                                      const std::vector<JobCap>& project);
 
 }  // namespace qchopper

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "app/jobs/job_verdict.h"
 #include "base/context.h"
 #include "base/files/file.h"
 #include "cam/cell/cell.h"
@@ -31,17 +30,12 @@ struct ProofInput {
     bool is_stated = true;
 };
 
-struct JobProof {
+struct JobProof : ProofResult {    // at most max_listed_findings
     std::vector<JobChunk> chunks;  // as read back; none if the texts cannot be read
-    std::vector<ProofFigure> figures;
-    std::vector<VerdictFinding> findings;  // at most max_listed_findings
-    std::size_t findings_left_out = 0;
-    std::vector<std::string> notes;  // JobVerdict::notes
-    std::vector<float> deviation;    // mm, per triangle: positive where foam stays, negative where it is cut into
+    std::vector<float> deviation;  // mm, per triangle: positive where foam stays, negative where it is cut into
     double time_s = 0;
     double length_mm = 0;
     Bytes stock_left;  // stock.bin for the next part, if there is one and the program could be replayed
-    bool is_proven() const { return findings.empty() && !figures.empty(); }
 };
 
 // Throws Cancelled. Faults of the program are findings.

@@ -23,7 +23,7 @@ void fields(V& v, T& figure) {
     v.check(figure.decimals >= 0 && figure.decimals <= max_decimals, "decimals", "is not a whole number in bounds");
 }
 
-template <class V, Of<VerdictFinding> T>
+template <class V, Of<ProofFinding> T>
 void fields(V& v, T& finding) {
     v("kind", finding.kind);
     v("file", finding.file);
@@ -54,12 +54,6 @@ void fields(V& v, T& verdict) {
     v("findings_left_out", verdict.findings_left_out);
     v("notes", verdict.notes);
     v.check(!verdict.is_positive || verdict.findings.empty(), "positive", "contradicts the findings");
-}
-
-std::string describe(const VerdictFinding& finding) {
-    if (finding.file.empty()) return finding.text;
-    if (finding.line == 0) return finding.file + ": " + finding.text;
-    return finding.file + " line " + std::to_string(finding.line) + ": " + finding.text;
 }
 
 std::string to_json(const JobVerdict& verdict) {

@@ -44,12 +44,6 @@ bool is_made_from(const ReadJob& job, const JobVerdict& verdict, const ProgramSo
            verdict.cell_sha256 == source.cell_sha256 && verdict.program_version == source.program_version;
 }
 
-double figure(const JobVerdict& verdict, const std::string& key) {
-    const auto found = std::find_if(verdict.figures.begin(), verdict.figures.end(),
-                                    [&](const ProofFigure& own) { return own.key == key; });
-    return found == verdict.figures.end() ? 0 : found->value;
-}
-
 ProvenProgram program_of(const ReadJob& job, const JobVerdict& verdict) {
     ProvenProgram proven;
     ProgramInput& input = proven.input;
@@ -62,20 +56,15 @@ ProvenProgram program_of(const ReadJob& job, const JobVerdict& verdict) {
     for (const JobChunk& chunk : job.program->chunks) {
         if (input.tools.empty() || input.tools.back() != chunk.tool) input.tools.push_back(chunk.tool);
     }
-    input.is_proven = verdict.is_positive;
-    input.figures = verdict.figures;
-    for (const VerdictFinding& finding : verdict.findings) input.findings.push_back(describe(finding));
+    input.proof = verdict;
     const auto picture = job.files.find("deviation.png");
     if (picture != job.files.end()) input.deviation_picture = picture->second;
     const auto stock = job.files.find("stock.bin");
     if (stock != job.files.end()) input.stock = stock->second;
     proven.proof.chunks = job.program->chunks;
-    proven.proof.figures = verdict.figures;
-    proven.proof.findings = verdict.findings;
-    proven.proof.findings_left_out = verdict.findings_left_out;
-    proven.proof.notes = verdict.notes;
-    proven.proof.time_s = figure(verdict, "time_s");
-    proven.proof.length_mm = 1000 * figure(verdict, "path_m");
+    static_cast<ProofResult&>(proven.proof) = verdict;
+    proven.proof.time_s = verdict.figure("time_s");
+    proven.proof.length_mm = 1000 * verdict.figure("path_m");
     return proven;
 }
 

@@ -130,10 +130,7 @@ JobVerdict verdict_of(const JobProof& proof, const JobOrders& orders, const std:
     verdict.cell = orders.cell.name;
     verdict.cell_sha256 = orders.cell_sha256;
     verdict.program_version = orders.program_version;
-    verdict.figures = proof.figures;
-    verdict.findings = proof.findings;
-    verdict.findings_left_out = proof.findings_left_out;
-    verdict.notes = proof.notes;
+    static_cast<ProofResult&>(verdict) = proof;
     verdict.is_positive = proof.is_proven();
     return verdict;
 }

@@ -174,9 +174,7 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
 void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& mesh) {
     if (proof.chunks.size() == input.program.chunks.size()) input.program.chunks = proof.chunks;
     input.program.time_s = proof.time_s;
-    input.is_proven = proof.is_proven();
-    input.figures = proof.figures;
-    for (const VerdictFinding& finding : proof.findings) input.findings.push_back(describe(finding));
+    input.proof = proof;
     if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation);
 }
 

@@ -16,9 +16,7 @@ using Json = nlohmann::ordered_json;
 // Of all parts of a program.
 std::size_t drilled_holes(const PieceReport& piece) {
     double holes = 0;
-    for (const JobVerdict& verdict : piece.verdicts) {
-        for (const ProofFigure& figure : verdict.figures) holes += figure.key == "holes_drilled" ? figure.value : 0;
-    }
+    for (const JobVerdict& verdict : piece.verdicts) holes += verdict.figure("holes_drilled");
     return static_cast<std::size_t>(holes);
 }
 

@@ -32,7 +32,7 @@ Json json_of_job(const VerifiedJob& job) {
     Json figures = Json::object();
     for (const ProofFigure& figure : v.figures) figures[figure.key] = figure.value;
     Json findings = Json::array();
-    for (const VerdictFinding& finding : v.findings) {
+    for (const ProofFinding& finding : v.findings) {
         findings.push_back(
             {{"kind", finding.kind}, {"file", finding.file}, {"line", finding.line}, {"text", finding.text}});
     }

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/box.h"
@@ -50,6 +51,9 @@ struct MovesLeftOut {
     bool operator==(const MovesLeftOut&) const = default;
 };
 
+// "no hold of the arm carries 6 mm of its cuts: ...", without a full stop. Empty if none is left out.
+std::string describe(const MovesLeftOut& moves);
+
 // A ball-ended tool that may be used and that the program does not use along a direction of the setup, and why.
 struct ToolLeftOut {
     std::optional<std::uint16_t> tool;       // CuttingTool::number; nothing: no tool at all
@@ -83,16 +87,39 @@ struct ProofFigure {
     bool operator==(const ProofFigure&) const = default;
 };
 
+// What speaks against a job.
+struct ProofFinding {
+    std::string kind;      // "rapid_in_foam"
+    std::string file;      // of the program; empty: of no file
+    std::size_t line = 0;  // from 1; 0: of the whole file
+    std::string text;      // one sentence without a full stop
+    bool operator==(const ProofFinding&) const = default;
+};
+
+// "qc_1_002.src line 17: the tip moves at 150 mm/s while it cuts, more than 120".
+std::string describe(const ProofFinding& finding);
+
+constexpr std::size_t max_listed_findings = 100;
+
+// The result of a proof, as the verdict, the setup sheet and the reports show it.
+struct ProofResult {
+    std::vector<ProofFigure> figures;  // of the replay; none where there was nothing to replay
+    std::vector<ProofFinding> findings;
+    std::size_t findings_left_out = 0;  // beyond those listed
+    std::vector<std::string> notes;     // what is to be known and speaks not against it: as findings, one sentence each
+    bool is_proven() const { return findings.empty() && !figures.empty(); }
+    double figure(std::string_view key) const;  // 0 if there is none
+    bool operator==(const ProofResult&) const = default;
+};
+
 // What goes into a job with its program.
 struct ProgramInput {
     JobProgram program;
     std::map<std::string, std::string> texts;  // of all its files, by name
     std::vector<std::uint16_t> tools;          // numbers, in the order in which they are used
-    bool is_proven = false;                    // the replay found nothing against the program
-    std::vector<ProofFigure> figures;          // of the replay
-    std::vector<std::string> findings;         // one sentence each; empty if it is proven
-    Bytes deviation_picture;                   // PNG; empty: none
-    Bytes stock;                               // stock.bin, of a part but the first: what the part before left
+    ProofResult proof;
+    Bytes deviation_picture;  // PNG; empty: none
+    Bytes stock;              // stock.bin, of a part but the first: what the part before left
 };
 
 }  // namespace qchopper

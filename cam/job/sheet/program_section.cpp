@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "cam/cell/allowed_tools.h"
-#include "cam/job/left_out.h"
+#include "cam/job/job_program.h"
 #include "cam/job/sheet/sheet_html.h"
 
 namespace qchopper {
@@ -40,15 +40,15 @@ std::string left_out_of(const JobProgram& program, const std::vector<std::uint16
 
 std::string proof_of(const ProgramInput& input) {
     std::string html;
-    if (!input.is_proven) {
+    if (!input.proof.is_proven()) {
         html += stop("DO NOT START: the replay of the program found faults.");
-        for (const std::string& finding : input.findings) html += paragraph(finding);
+        for (const ProofFinding& finding : input.proof.findings) html += paragraph(describe(finding));
     }
     html += paragraph(
         "Proof: the files of the program were read back and replayed in a block of foam by a part of qchopper that "
         "does not know how they were made.");
     Rows rows{{word("figure"), right("value"), word("unit")}};
-    for (const ProofFigure& figure : input.figures) {
+    for (const ProofFigure& figure : input.proof.figures) {
         rows.push_back({word(figure.name), number(figure.value, figure.decimals), word(figure.unit)});
     }
     html += table(rows);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/text.h"
-#include "cam/job/left_out.h"
+#include "cam/job/job_program.h"
 #include "cam/job/sheet/holding_section.h"
 #include "cam/job/sheet/setup_picture.h"
 #include "cam/job/sheet/sheet_details.h"
@@ -37,9 +37,10 @@ std::string head(const JobInput& input) {
     if (!input.stock_fit.fits()) refuse(describe_stock_fit(input.piece.name, input.stock_fit) + ".");
     if (!input.machine_reachability.holds())
         refuse(describe_reachability(input.piece.name, input.machine_reachability) + ".");
-    if (input.program && !input.program->is_proven) {
-        const std::vector<std::string>& findings = input.program->findings;
-        refuse("the replay of the program found faults" + (findings.empty() ? "." : ": " + findings.front() + "."));
+    if (input.program && !input.program->proof.is_proven()) {
+        const std::vector<ProofFinding>& findings = input.program->proof.findings;
+        const std::string first = findings.empty() ? std::string() : ": " + describe(findings.front());
+        refuse("the replay of the program found faults" + first + ".");
     }
     if (input.setup.workholding && !input.setup.workholding->passes()) {
         html += stop("The piece is not held safely: " + workholding_problem(*input.setup.workholding) +

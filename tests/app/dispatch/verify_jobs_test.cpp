@@ -15,7 +15,7 @@ constexpr const char* kuka = "kr60-ha";
 
 std::string kinds_of(const JobVerdict& verdict) {
     std::string kinds;
-    for (const VerdictFinding& finding : verdict.findings) kinds += (kinds.empty() ? "" : " ") + finding.kind;
+    for (const ProofFinding& finding : verdict.findings) kinds += (kinds.empty() ? "" : " ") + finding.kind;
     return kinds;
 }
 

@@ -276,7 +276,7 @@ struct DrilledJobsOf : ::testing::TestWithParam<std::string> {};
 
 TEST_P(DrilledJobsOf, AreProvenAsTheyWereMade) {
     const ProvenJob& proven = drilled_job(GetParam());
-    for (const VerdictFinding& finding : proven.verdict.findings) ADD_FAILURE() << describe(finding);
+    for (const ProofFinding& finding : proven.verdict.findings) ADD_FAILURE() << describe(finding);
     EXPECT_TRUE(proven.verdict.is_positive);
     for (const JobHole& hole : holes_of(proven.job.caps)) {
         EXPECT_TRUE(hole.by_robot) << hole.number << ": " << hole.by_hand;
@@ -297,12 +297,12 @@ TEST_P(DrilledJobsOf, EveryFaultOfAHoleIsFound) {
         fault.make(job);
         fill_in(job, proven.cell.cell);
         const JobVerdict verdict = judged(job, proven.cell);
-        const auto found = std::find_if(verdict.findings.begin(), verdict.findings.end(), [&](const VerdictFinding& f) {
+        const auto found = std::find_if(verdict.findings.begin(), verdict.findings.end(), [&](const ProofFinding& f) {
             return f.kind == fault.kind && f.text.find(fault.text) != std::string::npos;
         });
         EXPECT_FALSE(verdict.is_positive) << fault.name;
         std::string all;
-        for (const VerdictFinding& f : verdict.findings) all += f.kind + ": " + describe(f) + "\n";
+        for (const ProofFinding& f : verdict.findings) all += f.kind + ": " + describe(f) + "\n";
         ASSERT_NE(found, verdict.findings.end()) << fault.name << " is seen as\n" << all;
         EXPECT_TRUE(fault.kind == "missing_hole" || found->line > 0) << "the line of the fault is named";
         std::printf("%s: %s\n", fault.name.c_str(), describe(*found).c_str());
@@ -353,7 +353,7 @@ TEST(DrilledJobs, OnlyTheHolesThatTheProgramCannotDrillAreForTheHand) {
     }
     const PiecePrograms programs = slab.programs();
     ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
-    for (const VerdictFinding& finding : programs.parts[0].proof.findings) ADD_FAILURE() << describe(finding);
+    for (const ProofFinding& finding : programs.parts[0].proof.findings) ADD_FAILURE() << describe(finding);
     EXPECT_EQ(programs.parts[0].input.program.holes, (std::vector<std::size_t>{2, 3}));
     const std::vector<JobHole> holes = holes_in(programs);
     ASSERT_EQ(holes.size(), 3U);
@@ -385,7 +385,7 @@ TEST(DrilledJobs, EveryPartDrillsItsHolesAndAllOfThemAll) {
         const std::vector<std::size_t>& own = part.input.program.holes;
         all.insert(all.end(), own.begin(), own.end());
         with_holes += own.empty() ? 0 : 1;
-        for (const VerdictFinding& finding : part.proof.findings) ADD_FAILURE() << describe(finding);
+        for (const ProofFinding& finding : part.proof.findings) ADD_FAILURE() << describe(finding);
     }
     std::sort(all.begin(), all.end());
     EXPECT_EQ(all, (std::vector<std::size_t>{1, 2, 3}));

@@ -66,7 +66,7 @@ TEST(HoleFaults, AreNamedWithPieceAndHole) {
     for (const Change& change : changes) {
         std::vector<JobCap> caps = made;
         change.make(caps);
-        const std::vector<VerdictFinding> found = hole_faults("B", caps, made);
+        const std::vector<ProofFinding> found = hole_faults("B", caps, made);
         ASSERT_EQ(found.size(), change.findings.size()) << change.name;
         for (std::size_t i = 0; i < found.size(); ++i) {
             EXPECT_TRUE(found[i].text.starts_with("piece B: " + change.findings[i]))

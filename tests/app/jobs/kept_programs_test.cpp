@@ -11,7 +11,7 @@
 #include "base/files/temporary_folder.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/job_caps.h"
-#include "cam/job/left_out.h"
+#include "cam/job/job_program.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"
@@ -43,9 +43,8 @@ class KeptPrograms : public testing::Test {
         program.program.chunks = {{program.program.entry, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {}, {1, 1, 60}}};
         program.program.part = {part, 2, part > 1 ? std::optional(before) : std::nullopt};
         program.texts[program.program.entry] = "DEF part " + std::to_string(part);
-        program.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
+        program.proof.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
         program.tools = {7};
-        program.is_proven = true;
         program.deviation_picture = {1, 2, part < 2 ? std::uint8_t{3} : std::uint8_t{4}};
         input_.program = program;
         const Bytes bytes = job_file(input_);
@@ -54,7 +53,7 @@ class KeptPrograms : public testing::Test {
         verdict.job_sha256 = sha256(bytes);
         verdict.cell_sha256 = cell_;
         verdict.program_version = version_;
-        verdict.figures = program.figures;
+        verdict.figures = program.proof.figures;
         verdict.notes = {describe(program.program.moves_left_out)};
         verdict.is_positive = true;
         write_verdict(file(part), verdict);

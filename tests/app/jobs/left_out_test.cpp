@@ -36,7 +36,7 @@ const ProvenJob& grooved() {
 
 std::string kinds_of(const JobVerdict& verdict) {
     std::string kinds;
-    for (const VerdictFinding& finding : verdict.findings) kinds += finding.kind + ": " + finding.text + "\n";
+    for (const ProofFinding& finding : verdict.findings) kinds += finding.kind + ": " + finding.text + "\n";
     return kinds;
 }
 

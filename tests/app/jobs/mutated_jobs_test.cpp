@@ -62,7 +62,7 @@ TEST_P(MutatedJobs, TheManifestWidensNoTolerance) {
     ReadJob job = remade(proven, *higher->apply(texts_of(proven.job)));
     job.program->scallop_mm = 2;
     std::set<std::string> kinds;
-    for (const VerdictFinding& finding : judged(job, proven.cell).findings) kinds.insert(finding.kind);
+    for (const ProofFinding& finding : judged(job, proven.cell).findings) kinds.insert(finding.kind);
     EXPECT_TRUE(kinds.contains("other_scallop"));
     EXPECT_TRUE(kinds.contains("leftover"));
 }

@@ -31,8 +31,7 @@ ProgramInput some_program() {
     program.moves_left_out = {6.75, "operation 2 of the toolpath: link 5 comes too near to the block"};
     for (const std::string& name : program.files) input.texts[name] = "DEF " + name + "\r\nEND\r\n";
     input.tools = {1, 7};
-    input.is_proven = true;
-    input.figures = {{"max_gouge_mm", "largest gouge", 0.125, "mm", 3}};
+    input.proof.figures = {{"max_gouge_mm", "largest gouge", 0.125, "mm", 3}};
     input.deviation_picture = {0x89, 'P', 'N', 'G'};
     return input;
 }
@@ -175,8 +174,8 @@ TEST(JobProgram, SheetAndDetailsShowTimeToolsFiguresAndPicture) {
         EXPECT_NE(details.find(text), std::string::npos) << text;
     }
     EXPECT_EQ(sheet.find("found faults"), std::string::npos);
-    input.program->is_proven = false;
-    input.program->findings = {"qc_2_001.src line 7: rapid move in foam", "qc_2_001.src line 9: another"};
+    input.program->proof.findings = {{"rapid_in_foam", "qc_2_001.src", 7, "rapid move in foam"},
+                                     {"rapid_in_foam", "qc_2_001.src", 9, "another"}};
     const ReadJob refused = parse_job(job_file(input), "AB.qjob");
     const std::string stop = text_of(refused.files.at("setup.html"));
     EXPECT_NE(stop.find("DO NOT START: the replay of the program found faults"), std::string::npos);

@@ -146,7 +146,7 @@ TEST(SetupSheet, ListsTheToolsThatTheProgramTakesAndNoOther) {
     input.cell.machine->tools.push_back(third);
     const auto rows_of = [&](std::vector<std::uint16_t> used) {
         input.program = ProgramInput{};
-        input.program->is_proven = true;
+        input.program->proof.figures = {{"max_gouge_mm", "largest gouge", 0.125, "mm", 3}};
         input.program->tools = std::move(used);
         const std::string sheet = setup_sheet(input, some_time_s);
         return std::vector<std::string>{row(sheet, "1 | long"), row(sheet, "7 |"), row(sheet, "9 |")};

@@ -86,7 +86,7 @@ JobInput long_job() {
     program.program.chunks = {{"qc_2_001.src", 1, 0, 120, 4567.25, {{-1, -2, 0}, {3, 4, 60}}, {0, 0, 60}, {1, 1, 60}}};
     program.program.part = {2, 3, sha256({})};
     program.stock = {1};
-    program.findings = {std::string(500, 'x')};
+    program.proof.findings = {{"leftover", "", 0, std::string(500, 'x')}};
     for (const std::string& name : program.program.files) program.texts[name] = "DEF\r\nEND\r\n";
     std::vector<CuttingTool>& tools = input.cell.machine->tools;
     while (tools.size() < 6) tools.push_back(tools.front());
