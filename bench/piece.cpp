@@ -194,9 +194,7 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
     print_operations(path, cell);
     const ReplayScene scene = scene_of(setup, path, mesh, cell);
     const ToolPath lines = lines_of(path);
-    ParsedProgram names;
-    for (std::size_t k = 1; k <= path.operations.size(); ++k) names.files.push_back("operation " + std::to_string(k));
-    FindingLog log(names);
+    FindingLog log;
     std::vector<Vec3> tool_axes;
     for (const SceneOrientation& orientation : scene.orientations) tool_axes.push_back(orientation.tool_axis);
     StockModel stock_model(scene.block, tool_axes, replay_cell);
@@ -212,7 +210,9 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
         100 * left.within_mm2 / left.reachable_mm2, 100 * left.reachable_mm2 / left.area_mm2, left.largest,
         gouges.largest, 100 * carving.air_mm / carving.feed_mm);
     print_places(mesh, left, scene.scallop + LeftoverOptions{}.too_much);
-    for (const Finding& finding : log.findings()) std::printf("  %s\n", finding.text.c_str());
+    for (const Finding& finding : log.findings()) {
+        std::printf("  operation %u: %s\n", finding.place.file + 1, finding.text.c_str());
+    }
     std::printf("peak memory %.0f MB\n", 1e-6 * static_cast<double>(Timings().so_far().peak_memory_bytes));
     return 0;
 }

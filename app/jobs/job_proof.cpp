@@ -41,12 +41,6 @@ std::string without_ending(const std::string& file) {
     return file.substr(0, file.rfind('.'));
 }
 
-// "x.src:17: text" without its place, which stands in fields of its own.
-std::string without_place(const std::string& text, const std::string& place) {
-    const std::string prefix = place + ": ";
-    return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
-}
-
 std::optional<ParsedProgram> read(const ProofInput& input, JobProof& proof) {
     std::vector<ProgramFile> files;
     for (const std::string& name : input.program.files) files.push_back({name, input.texts.at(name)});
@@ -235,11 +229,8 @@ std::vector<std::string> notes_of(const JobProgram& program, const std::vector<s
 
 void add_findings(const ParsedProgram& program, const ReplayReport& report, JobProof& proof) {
     for (const Finding& finding : report.findings) {
-        const bool has_place = finding.place.line > 0;
-        const std::string file = has_place ? program.files[finding.place.file] : std::string();
-        const std::string text =
-            has_place ? without_place(finding.text, describe_place(program, finding.place)) : finding.text;
-        add(proof, to_word(finding.kind), file, finding.place.line, text);
+        const std::string file = finding.place.line > 0 ? program.files[finding.place.file] : std::string();
+        add(proof, to_word(finding.kind), file, finding.place.line, finding.text);
     }
     std::size_t all = 0;
     for (const std::size_t count : report.counts) all += count;

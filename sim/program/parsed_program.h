@@ -105,9 +105,4 @@ struct ParsedProgram {
     std::vector<ProgramChunk> chunks;  // in the order of execution; they cover the steps
 };
 
-// "qc_1_002.src:17"
-inline std::string describe_place(const ParsedProgram& program, SourcePlace place) {
-    return program.files[place.file] + ":" + std::to_string(place.line);
-}
-
 }  // namespace qchopper

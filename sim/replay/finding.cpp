@@ -31,8 +31,7 @@ bool FindingLog::wants(FindingKind kind, double worse) {
 
 void FindingLog::keep(FindingKind kind, SourcePlace place, double number, double worse, std::string text) {
     OfKind& of = kinds_[static_cast<std::size_t>(kind)];
-    const std::string at = place.line == 0 ? "" : describe_place(*program_, place) + ": ";
-    const Finding finding{kind, place, number, at + std::move(text)};
+    const Finding finding{kind, place, number, std::move(text)};
     const bool is_worst = of.first.empty() || worse > of.worst;
     if (is_worst) of.worst = worse;
     if (of.first.size() < kept_per_kind) {

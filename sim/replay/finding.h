@@ -67,13 +67,12 @@ struct Finding {
     FindingKind kind = FindingKind::no_cut;
     SourcePlace place;  // line 0: of no line
     double number = 0;  // mm, degrees, mm/s or revolutions/min, as the text says
-    std::string text;   // "qc_1_001.src:17: ..."
+    std::string text;   // without the place
 };
 
 // Collects findings: of each kind the first ones and the one with the largest number.
 class FindingLog {
  public:
-    explicit FindingLog(const ParsedProgram& program) : program_(&program) {}
     // `text` is called only if the finding is kept; `worse` is what is compared, larger is worse.
     template <class Text>
     void add(FindingKind kind, SourcePlace place, double number, double worse, const Text& text) {
@@ -94,7 +93,6 @@ class FindingLog {
     bool wants(FindingKind kind, double worse);
     void keep(FindingKind kind, SourcePlace place, double number, double worse, std::string text);
 
-    const ParsedProgram* program_;
     std::array<OfKind, finding_kinds> kinds_;
 };
 

@@ -124,7 +124,7 @@ std::vector<float> deviations(const GougeFigures& gouges, const LeftoverFigures&
 ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, const ReplayOptions& options,
                     const Context& context) {
     check_scene(scene);
-    FindingLog log(program);
+    FindingLog log;
     ReplayReport report;
     const ToolPath path = walk_machine(program, scene, log, context);
     report.time = time_of(path);

@@ -73,7 +73,8 @@ TEST(KrlReader, ReadsMovesWithTheirModalValues) {
     EXPECT_NEAR(ptp.values[1], -90 * radian, 1e-12);
     const ProgramStep& last = program.steps[3];
     EXPECT_EQ(last.kind, StepKind::linear_move);
-    EXPECT_EQ(describe_place(program, last.place), "qc_1_001.src:28");
+    EXPECT_EQ(program.files[last.place.file], "qc_1_001.src");
+    EXPECT_EQ(last.place.line, 28U);
     EXPECT_EQ(last.values[2], 18);
     EXPECT_NEAR(last.values[3], 180 * radian, 1e-12);
     EXPECT_TRUE(program.steps[2].is_rounded);

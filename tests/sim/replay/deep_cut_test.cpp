@@ -54,9 +54,7 @@ class Lines {
         }
     }
     std::size_t deep_cuts() const {
-        ParsedProgram names;
-        names.files = {"lines"};
-        FindingLog log(names);
+        FindingLog log;
         StockModel stock_model(block, {out_}, cell);
         mill_stock(stock_model, path_, scene_, false, log, {});
         return log.count(FindingKind::deep_cut);

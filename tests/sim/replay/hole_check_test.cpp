@@ -15,7 +15,6 @@ namespace {
 struct Holes {
     Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
     ReplayScene scene;
-    ParsedProgram program;
 
     Holes() {
         scene.cell = &cell;
@@ -24,7 +23,6 @@ struct Holes {
                        {2, {30, 0, 40}, {0, 0, -1}, 6, 16, true, true},
                        {3, {60, 0, 40}, {0, 0, -1}, 6, 16, false, false},
                        {4, {90, 0, 40}, {0, 0, -1}, 6, 16, true, false}};
-        program.files = {"qc_1_001.src"};
     }
 
     double full(std::size_t tool, double depth) const { return depth + point_height(cell.machine->tools[tool]); }
@@ -57,7 +55,7 @@ struct Holes {
     // Kinds of the findings, "hole_depth:17 missing_hole:0"
     std::string kinds(const std::vector<TipLine>& lines, HoleFigures* figures = nullptr,
                       bool removes_foam = true) const {
-        FindingLog log(program);
+        FindingLog log;
         HoleCheck check(scene, log);
         for (const TipLine& line : lines) check.take_line(line, removes_foam);
         const HoleFigures found = check.finish();
