@@ -19,13 +19,13 @@
 #include "bench/other_readers.h"
 #include "bench/specimens.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/mapped_access.h"
 #include "cam/setup/reachable_directions.h"
 #include "cam/setup/stock_points.h"
 #include "segment/access/tool_directions.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/search.h"
+#include "tests/cam/setup/access_case.h"
 
 namespace {
 
@@ -51,8 +51,8 @@ TriangleMesh piece(std::size_t faces) {
     return mesh;
 }
 
-MappedSetup setup_of(const TriangleMesh& mesh) {
-    MappedSetup setup;
+test_pieces::AccessCase setup_of(const TriangleMesh& mesh) {
+    test_pieces::AccessCase setup;
     setup.mesh = &mesh;
     setup.up = {0, 0, 1};
     const Box box = bounds(mesh);
@@ -67,7 +67,7 @@ MappedSetup setup_of(const TriangleMesh& mesh) {
 void measure_map(const TriangleMesh& mesh, const std::string& name, Figures& figures) {
     const TemporaryFolder folder("qchopper-bench-");
     write_file(folder.path() / "piece.ply", to_ply(mesh));
-    const MappedSetup setup = setup_of(mesh);
+    const test_pieces::AccessCase setup = setup_of(mesh);
     double ours = std::numeric_limits<double>::infinity();
     double theirs = ours;
     for (int i = 0; i < runs; ++i) {
@@ -134,7 +134,7 @@ double peak_bytes(const Work& work) {
 
 // Two measures with cells of two sizes tell the bytes of a cell from those of a face.
 void measure_memory(const TriangleMesh& mesh, const std::string& name, Figures& figures) {
-    const MappedSetup setup = setup_of(mesh);
+    const test_pieces::AccessCase setup = setup_of(mesh);
     const auto peak = [&](double side) { return peak_bytes([&] { return mapped_access(setup, {.cell = side}); }); };
     const auto cells = [&](double side) {
         return static_cast<double>(height_field(mesh, setup.up, side).height.size());

@@ -144,7 +144,7 @@ std::vector<ProofFinding> faults_against_project(const ReadJob& job, const std::
     const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == job.piece; });
     if (piece == pieces.end()) return {finding("other_piece", "the project has no piece " + job.piece)};
     if (auto fault = fault_against_piece(job, job_file, *piece)) return {*fault};
-    if (auto fault = fault_against_setup(job, project.setups()->held(*piece).setup())) return {*fault};
+    if (auto fault = fault_against_setup(job, project.setups()->placed(*piece).setup())) return {*fault};
     std::vector<JobCap> caps;
     const auto index = static_cast<std::size_t>(piece - pieces.begin());
     for (DrawnCap& drawn : caps_of(pieces, index, joints, job.setup, cell)) caps.push_back(std::move(drawn.cap));
@@ -235,7 +235,7 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
     StageTimer stage(context, "dowels placed");
     const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell.cell), context);
     stage.next("setups chosen");
-    project.setups()->compute_held(pieces_of(ordered.jobs, segmentation.pieces), context);
+    project.setups()->place(pieces_of(ordered.jobs, segmentation.pieces), context);
     stage.next("jobs verified");
     VerifyAnswer verified;
     PartBefore before;

@@ -140,7 +140,7 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
         if (request.piece && pieces[i].name != *request.piece) continue;
         ExportedPiece row{exported(pieces[i], i, open.project()), {}, {}};
         if (setups != nullptr) {
-            const PieceSetup& piece_setup = setups->held(pieces[i]);
+            const PlacedSetup& piece_setup = setups->placed(pieces[i]);
             row.piece.pose = piece_setup.setup().piece_in_setup;
             row.piece.fits = piece_setup.fits();
         }

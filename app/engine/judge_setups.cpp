@@ -132,7 +132,7 @@ std::optional<SearchEnd> OpenProject::cut_by_setups(const Context& context,
     if (!project_.settings.stop.max_unreachable) return std::nullopt;
     if (time_limit && time_limit->has_passed()) return end_of_time(*time_limit);
     const StageTimer stage(context, "pieces cut by their setups");
-    setups()->compute_held(segmentation().pieces, context);
+    setups()->place(segmentation().pieces, context);
     Segmentation working = segmentation();
     SearchSettings settings = project_.settings;
     settings.beam = 1;

@@ -74,7 +74,7 @@ void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, Se
     write_file(folder / "pictures" / "exploded.png", render_png(scene, {}, context));
     std::vector<MilledPiece> milled;
     for (const Piece& piece : pieces) {
-        const PieceSetup& piece_setup = setups.held(piece);
+        const PlacedSetup& piece_setup = setups.placed(piece);
         milled.push_back({piece_setup.choice.states, piece_setup.setup().base});
     }
     write_file(folder / "pictures" / "unreachable.png",

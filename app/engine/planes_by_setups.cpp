@@ -78,7 +78,7 @@ std::vector<Piece> pieces_made(const Segmentation& segmentation, std::size_t pie
 TriedPlane judged(const Ranked& plane, const std::vector<Piece>& pieces, double limit, Setups& setups) {
     TriedPlane tried{plane};
     for (const Piece& part : pieces) {
-        const PieceSetup& piece_setup = setups.of(part);
+        const MappedSetup& piece_setup = setups.mapped(part);
         const SurfaceAccess& access = piece_setup.setup().access;
         tried.fits = tried.fits && piece_setup.stock_fit.fits() && setups.fits(part);
         tried.unreachable_mm2 += access.unreachable_mm2();
@@ -103,7 +103,7 @@ std::vector<Ranked> planes_by_setups(const Segmentation& segmentation, std::size
         const std::vector<Piece> pieces =
             pieces_made(segmentation, piece, planes[k], settings.objectives.fragment_volume_mm3);
         if (pieces.empty()) continue;
-        setups.compute(pieces, of_pieces);
+        setups.map(pieces, of_pieces);
         tried.push_back(judged(planes[k], pieces, *settings.stop.max_unreachable, setups));
     }
     std::stable_sort(tried.begin(), tried.end(), [](const TriedPlane& a, const TriedPlane& b) {

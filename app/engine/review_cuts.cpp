@@ -7,7 +7,6 @@
 #include <cassert>
 #include <set>
 
-#include "app/jobs/unreachable_of.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/search/recut.h"
 #include "segment/search/stop_rules.h"
@@ -31,7 +30,7 @@ RulesHeld rules_held(std::span<const Piece> pieces, const StopRules& rules, Setu
     for (const Piece& piece : pieces) {
         if (rules.max_faces && piece.mesh->triangles.size() >= *rules.max_faces) held.faces = false;
         if (rules.max_obb && !fits_in(oriented_box(piece.mesh->points).size(), *rules.max_obb)) held.box = false;
-        if (!setups.of(piece).stock_fit.fits() || !setups.fits(piece)) held.fits = false;
+        if (!setups.mapped(piece).stock_fit.fits() || !setups.fits(piece)) held.fits = false;
     }
     return held;
 }
@@ -43,7 +42,7 @@ bool are_machinable(std::span<const Piece> pieces, Setups& setups) {
 MilledSurface milled(std::span<const Piece> pieces, Setups& setups) {
     MilledSurface sum;
     for (const Piece& piece : pieces) {
-        const SurfaceAccess& access = setups.of(piece).setup().access;
+        const SurfaceAccess& access = setups.mapped(piece).setup().access;
         sum.unreachable_mm2 += access.unreachable_mm2();
         sum.area_mm2 += access.area_mm2;
     }
@@ -92,22 +91,21 @@ void compute_setups(const std::vector<Segmentation>& cuts, const Cut& cut, Setup
     std::vector<Piece> pieces;
     for (const Segmentation& alone : cuts) pieces.insert(pieces.end(), alone.pieces.begin(), alone.pieces.end());
     compared.progress(what, 0, pieces.size());
-    setups.compute(pieces, compared);
+    setups.map(pieces, compared);
 }
 
 }  // namespace
 
 std::vector<std::int32_t> doubtful_cuts(const Segmentation& segmentation, Setups& setups, const Context& context) {
-    setups.compute(segmentation.pieces, context);
-    const UnreachableOf expected = unreachable_of(max_tilt_deg(setups.cell()));
+    setups.map(segmentation.pieces, context);
     std::set<std::int32_t> numbers;
     std::size_t done = 0;
     for (const Piece& piece : segmentation.pieces) {
         context.check_cancelled();
         context.progress("setups compared with the search", done++, segmentation.pieces.size());
-        const double share = setups.of(piece).setup().access.unreachable_share();
+        const double share = setups.mapped(piece).setup().access.unreachable_share();
         if (made_by(piece) == 0 || numbers.contains(made_by(piece)) || share <= doubtful_share) continue;
-        if (share - expected(piece).share > doubtful_share) numbers.insert(made_by(piece));
+        if (share - setups.unreachable_without_holder(piece).share > doubtful_share) numbers.insert(made_by(piece));
     }
     return {numbers.begin(), numbers.end()};
 }

@@ -46,7 +46,7 @@ SetupOrder order_of(const Project& project, const SetupRequest& request) {
 }
 
 PieceSetups setups_of(OpenProject& project, const Piece& piece) {
-    PieceSetups shown{piece.name, {}, project.setups()->held(piece)};
+    PieceSetups shown{piece.name, {}, project.setups()->placed(piece)};
     for (const SetupOrder& o : committed_setup_orders(project.project().history)) {
         if (o.piece == piece.name) shown.order = o;
     }
@@ -78,7 +78,7 @@ SetupAnswer setup_project(const std::filesystem::path& folder, const SetupReques
         }
     }
     const StageTimer stage(context, "setups chosen");
-    if (!index) project.setups()->compute_held(pieces, context);
+    if (!index) project.setups()->place(pieces, context);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (!index || *index == i) answer.pieces.push_back(setups_of(project, pieces[i]));
     }

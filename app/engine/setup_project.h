@@ -28,7 +28,7 @@ struct SetupRequest {
 struct PieceSetups {
     std::string piece;
     std::optional<SetupOrder> order;  // what the operator chose
-    PieceSetup piece_setup;
+    PlacedSetup piece_setup;
 };
 
 struct SetupAnswer {

@@ -90,7 +90,7 @@ JobOrders orders_of(const fs::path& folder, const Project& project, const Segmen
             program_version};
 }
 
-JobInput job_input(const JobOrders& orders, std::size_t index, const PieceSetup& piece_setup) {
+JobInput job_input(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup) {
     JobInput input;
     input.piece = orders.segmentation.pieces[index];
     input.piece_no = static_cast<std::uint16_t>(index + 1);
@@ -152,7 +152,7 @@ void write_one(const JobInput& input, const JobProof* proof, const JobOrders& or
 }
 
 // Those that an earlier run made of the same, or new ones.
-PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const PieceSetup& piece_setup,
+PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const PlacedSetup& piece_setup,
                           const Context& context) {
     std::string none_because = no_programs_for(orders.cell);
     if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
@@ -165,10 +165,9 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
 }
 
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
-MadeJob make_job(const JobOrders& orders, std::size_t index, const PieceSetup& piece_setup, const Context& context) {
+MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
     MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), piece_setup, {}}, {}};
-    made.report.piece_setup.mesh.reset();
     made.report.piece_setup.choice.states.clear();
     made.report.advice = advice_for(orders.folder, orders.project, piece, piece_setup.setup().access,
                                     with_tools(orders.cell, piece_setup.setup().tools));
@@ -245,7 +244,7 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
                       const Context& context) {
     const Piece& piece = segmentation.pieces[index];
     MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), joints, program_version), index,
-                            setups.held(piece), context);
+                            setups.placed(piece), context);
     record_jobs(project, segmentation, index, made.written);
     return std::move(made.report);
 }
@@ -256,12 +255,12 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     StageTimer stage(context, "setups chosen");
     const std::size_t count = segmentation.pieces.size();
     context.progress("setups chosen", 0, count);
-    setups.compute(segmentation.pieces, context);
+    setups.map(segmentation.pieces, context);
     stage.next("work envelopes judged");
-    setups.compute_held(segmentation.pieces, context);
+    setups.place(segmentation.pieces, context);
     stage.next("jobs written");
-    std::vector<const PieceSetup*> piece_setups;
-    for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.held(piece));
+    std::vector<const PlacedSetup*> piece_setups;
+    for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.placed(piece));
     std::vector<MadeJob> made(count);
     const Project ordered = project;  // what the threads read, while the records change
     const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);

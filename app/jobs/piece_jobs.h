@@ -28,7 +28,7 @@ struct PieceReport {
     std::string name;
     std::size_t faces = 0;
     double volume_mm3 = 0;
-    PieceSetup piece_setup;
+    PlacedSetup piece_setup;
     std::filesystem::path job;              // empty: it does not fit the cell and has no job
     std::vector<AccessAdvice> advice = {};  // of a piece of which more is out of reach than may be
     std::string no_program_because = {};    // empty: its jobs hold robot programs

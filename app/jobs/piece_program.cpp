@@ -48,7 +48,7 @@ double wall_of(const JobHole& hole, const Cell& cell) {
     return wall;
 }
 
-MadePath make_path(const Piece& piece, const PieceSetup& piece_setup, const Cell& cell,
+MadePath make_path(const Piece& piece, const PlacedSetup& piece_setup, const Cell& cell,
                    const std::vector<DrawnCap>& caps, const ToolpathSettings& settings, const Context& context) {
     const Setup& setup = piece_setup.setup();
     InProcessStock left(setup);
@@ -71,7 +71,7 @@ struct PostedProgram {
     MovesLeftOut left_out;
 };
 
-PostedProgram post(const Toolpath& path, const Drilling& drilling, const PieceSetup& piece_setup,
+PostedProgram post(const Toolpath& path, const Drilling& drilling, const PlacedSetup& piece_setup,
                    std::uint16_t piece_no, const Cell& cell, const Context& context) {
     Toolpath whole = path;
     const std::vector<Operation>& drilled = drilling.operations;
@@ -90,7 +90,7 @@ std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
 }
 
 // What refuses a program that drills this hole and does nothing else; empty: nothing.
-std::string refusal_alone(std::size_t number, const Drilling& drilling, const PieceSetup& piece_setup,
+std::string refusal_alone(std::size_t number, const Drilling& drilling, const PlacedSetup& piece_setup,
                           std::uint16_t piece_no, const Cell& cell, const Context& context) {
     Drilling alone = drilling;
     for (const std::size_t other : drilled_holes(drilling)) {
@@ -106,7 +106,7 @@ std::string refusal_alone(std::size_t number, const Drilling& drilling, const Pi
 
 // With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
 // where that does not help, without any.
-PostedProgram make_parts(MadePath& made, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
+PostedProgram make_parts(MadePath& made, const PlacedSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
                          const Context& context) {
     const auto posted = [&] { return post(made.toolpath, made.drilling, piece_setup, piece_no, cell, context); };
     const auto leave = [&](std::size_t number, const std::string& why) {
@@ -192,8 +192,8 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
     return caps;
 }
 
-PiecePrograms make_programs(const Piece& piece, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
-                            std::vector<DrawnCap> caps, const Context& context) {
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
+                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context) {
     const Setup& setup = piece_setup.setup();
     const Cell planned = with_tools(cell, setup.tools);
     PostedProgram posted;

@@ -36,8 +36,8 @@ std::string no_programs_for(const Cell& cell);
 // piece_setup is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
 // no_programs_for(cell) is empty. Where the machine cannot follow the toolpath there is no program, and none_because
 // says why. Throws Cancelled.
-PiecePrograms make_programs(const Piece& piece, const PieceSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
-                            std::vector<DrawnCap> caps, const Context& context);
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
+                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context);
 
 // Caps of a piece that gets no program.
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);

@@ -1,4 +1,4 @@
-// The cost is that of choose_setup() for each piece that is new, for held() also that of reachable_setup().
+// The cost is that of choose_setup() for each piece that is new, for placed() also that of reachable_setup().
 //
 // What arm and tools cannot mill is cut again (is_machinable). That a block fits and that the arm holds the extreme
 // poses above it says nothing of tilted directions and of the holder. So where pieces are cut for size, a piece that
@@ -12,19 +12,20 @@
 // Of the bunny at 1.5 m in kr60-ha it made 48 pieces in place of 16, with 1.8 % in place of 22.8 % of the surface out
 // of reach and none that cannot be milled. A largest height in the cell file would be wrong for every convex piece; a
 // term of the objectives would need the setup of every plane, some thousand times the cost.
-// Tests: tests/app/jobs/setups_test.cpp, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeCarved and
-// AHighPieceThatTheToolReachesFromItsSidesCanBeCarved.
+// Tests: tests/app/jobs/setups_test.cpp, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeMilled and
+// AHighPieceThatTheToolReachesFromItsSidesCanBeMilled.
 
 #include "app/jobs/setups.h"
 
 #include <algorithm>
-#include <mutex>
+#include <utility>
 
 #include "app/jobs/unreachable_of.h"
 #include "base/parallel.h"
 #include "base/shared_progress.h"
 #include "cam/cell/allowed_tools.h"
 #include "cam/setup/blocks_needed.h"
+#include "cam/setup/limiting_tools.h"
 #include "cam/setup/reachable_setup.h"
 #include "segment/access/piece_access.h"
 #include "segment/mesh/oriented_box.h"
@@ -35,130 +36,136 @@ namespace {
 // Of a piece's surface; what more of it arm, holder and spindle keep out of reach is a reason to cut the piece.
 constexpr double max_by_machine = 0.02;
 
+UnreachableSurface unreachable_surface(const Setup& setup) {
+    return {setup.access.unreachable_mm2(), setup.access.unreachable_share()};
+}
+
 }  // namespace
 
 void Setups::set_orders(std::vector<SetupOrder> orders) {
     if (orders == orders_) return;
     orders_ = std::move(orders);
-    piece_setups_.clear();
-    held_.clear();
-    machinable_.clear();
+    stages_.clear();
 }
 
 void Setups::set_tools(std::vector<std::uint16_t> tools) {
     if (tools == tools_) return;
     planned_ = with_tools(cell_, tools);
     tools_ = std::move(tools);
-    piece_setups_.clear();
-    held_.clear();
-    fits_.clear();
-    machinable_.clear();
+    stages_.clear();
 }
 
 void Setups::set_count_narrow(bool count_narrow) {
     if (count_narrow == count_narrow_) return;
     count_narrow_ = count_narrow;
-    piece_setups_.clear();
-    held_.clear();
-    machinable_.clear();
+    stages_.clear();
 }
 
-void Setups::compute(std::span<const Piece> pieces, const Context& context) {
-    std::vector<const Piece*> missing;
+// Those of meshes that are gone are dropped before another is added.
+Setups::Stages& Setups::stages_of(const Piece& piece) {
+    const auto known = stages_.find(piece.mesh);
+    if (known != stages_.end()) return known->second;
+    std::erase_if(stages_, [](const auto& entry) { return entry.first.expired(); });
+    return stages_[piece.mesh];
+}
+
+template <class Stage, class Make>
+void Setups::compute(std::optional<Stage> Stages::*stage, const std::string& what, std::span<const Piece> pieces,
+                     const Context& context, const Make& make) {
+    std::vector<std::pair<const Piece*, Stages*>> missing;
     for (const Piece& piece : pieces) {
-        if (!piece_setups_.contains(piece.mesh.get())) missing.push_back(&piece);
+        Stages& stages = stages_of(piece);
+        if (!(stages.*stage)) missing.emplace_back(&piece, &stages);
     }
-    SharedProgress progress(context, "setups chosen", missing.size());
-    std::mutex changing;
+    SharedProgress progress(context, what, missing.size());
     parallel_for(0, missing.size(), [&](std::size_t i) {
         context.check_cancelled();
-        PieceSetup piece_setup = piece_setup_of(*missing[i]);
-        const std::lock_guard lock(changing);
-        piece_setups_[missing[i]->mesh.get()] = std::move(piece_setup);
+        const auto [piece, stages] = missing[i];
+        stages->*stage = make(*piece, *stages);
         progress.add(1);
     });
 }
 
-const PieceSetup& Setups::of(const Piece& piece) {
-    const auto [it, is_new] = piece_setups_.try_emplace(piece.mesh.get());
-    if (is_new) it->second = piece_setup_of(piece);
-    return it->second;
+void Setups::map(std::span<const Piece> pieces, const Context& context) {
+    compute(&Stages::mapped, "setups chosen", pieces, context,
+            [&](const Piece& piece, const Stages&) { return mapped_of(piece); });
 }
 
-void Setups::compute_held(std::span<const Piece> pieces, const Context& context) {
-    compute(pieces, context);
-    std::vector<const Piece*> missing;
-    for (const Piece& piece : pieces) {
-        if (!held_.contains(piece.mesh.get())) missing.push_back(&piece);
-    }
-    SharedProgress progress(context, "work envelopes judged", missing.size());
-    std::mutex changing;
+void Setups::place(std::span<const Piece> pieces, const Context& context) {
+    map(pieces, context);
     Context quiet;  // several pieces at a time: places of one are no progress of all
     quiet.cancelled = context.cancelled;
-    parallel_for(0, missing.size(), [&](std::size_t i) {
-        context.check_cancelled();
-        const Piece& piece = *missing[i];
-        PieceSetup piece_setup = held_of(piece, piece_setups_.at(piece.mesh.get()), quiet);
-        const std::lock_guard lock(changing);
-        held_[piece.mesh.get()] = std::move(piece_setup);
-        progress.add(1);
-    });
+    compute(&Stages::placed, "work envelopes judged", pieces, context,
+            [&](const Piece& piece, const Stages& stages) { return placed_of(piece, *stages.mapped, quiet); });
 }
 
-const PieceSetup& Setups::held(const Piece& piece) {
-    const auto known = held_.find(piece.mesh.get());
-    if (known != held_.end()) return known->second;
-    return held_[piece.mesh.get()] = held_of(piece, of(piece), {});
+const MappedSetup& Setups::mapped(const Piece& piece) {
+    std::optional<MappedSetup>& mapped = stages_of(piece).mapped;
+    if (!mapped) mapped = mapped_of(piece);
+    return *mapped;
+}
+
+const PlacedSetup& Setups::placed(const Piece& piece) {
+    std::optional<PlacedSetup>& placed = stages_of(piece).placed;
+    if (!placed) placed = placed_of(piece, mapped(piece), {});
+    return *placed;
 }
 
 void Setups::keep_only(std::span<const Piece> pieces) {
-    for (PieceSetups* piece_setups : {&piece_setups_, &held_}) {
-        std::erase_if(*piece_setups, [&](const auto& piece_setup) {
-            return std::none_of(pieces.begin(), pieces.end(),
-                                [&](const Piece& piece) { return piece.mesh.get() == piece_setup.first; });
-        });
+    for (auto& [mesh, stages] : stages_) {
+        const bool is_kept = std::any_of(pieces.begin(), pieces.end(),
+                                         [&known = mesh](const Piece& piece) { return known.lock() == piece.mesh; });
+        if (is_kept) continue;
+        stages.mapped.reset();
+        stages.placed.reset();
     }
 }
 
 bool Setups::fits(const Piece& piece) {
-    Answer& known = fits_[piece.mesh.get()];
-    if (known.mesh.expired()) known = {piece.mesh, fits_cell_and_machine(piece, planned_)};
-    return known.is_yes;
+    std::optional<bool>& fits = stages_of(piece).fits;
+    if (!fits) fits = fits_cell_and_machine(piece, planned_);
+    return *fits;
+}
+
+UnreachableSurface Setups::unreachable(const Piece& piece) {
+    std::optional<UnreachableSurface>& sampled = stages_of(piece).sampled;
+    if (!sampled) sampled = sampled_of(piece);
+    return *sampled;
+}
+
+UnreachableSurface Setups::unreachable_without_holder(const Piece& piece) {
+    std::optional<UnreachableSurface>& surface = stages_of(piece).without_holder;
+    if (!surface) surface = unreachable_of(max_tilt_deg(cell_))(piece);
+    return *surface;
 }
 
 bool Setups::is_machinable(const Piece& piece) {
-    Answer& known = machinable_[piece.mesh.get()];
-    if (known.mesh.expired()) known = {piece.mesh, find_whether_machinable(piece)};
-    return known.is_yes;
+    std::optional<bool>& is_machinable = stages_of(piece).is_machinable;
+    if (!is_machinable) is_machinable = find_whether_machinable(piece);
+    return *is_machinable;
 }
 
-// The setup is kept only of a piece that is not cut further.
 bool Setups::find_whether_machinable(const Piece& piece) {
     if (!cell_.machine) return true;
     const double low = low_piece_height(planned_);
     const Vec3 size = oriented_box(piece.mesh->points).size();
     if (std::max({size.x, size.y, size.z}) <= low) return true;
-    const auto is_low_enough = [&](const PieceSetup& piece_setup) {
-        if (piece_setup.setup().box.max.z <= low) return true;
-        const double of_tilt = unreachable_of(max_tilt_deg(cell_))(piece).share;
-        return piece_setup.setup().access.unreachable_share() - of_tilt <= max_by_machine;
+    const auto is_low_enough = [&](const Setup& setup) {
+        if (setup.box.max.z <= low) return true;
+        return setup.access.unreachable_share() - unreachable_without_holder(piece).share <= max_by_machine;
     };
-    PieceSetup best = piece_setup_of(piece);
-    PieceSetup held = is_low_enough(best) ? held_of(piece, best, {}) : PieceSetup{};
-    if (!held.mesh || !held.fits() || !is_low_enough(held)) return false;
-    piece_setups_[piece.mesh.get()] = std::move(best);
-    held_[piece.mesh.get()] = std::move(held);
-    return true;
+    if (!is_low_enough(mapped(piece).setup())) return false;
+    const PlacedSetup& placed = this->placed(piece);
+    return placed.fits() && is_low_enough(placed.setup());
 }
 
-UnreachableSurface Setups::unreachable(const Piece& piece) {
+UnreachableSurface Setups::sampled_of(const Piece& piece) const {
     SetupOptions options = options_for(piece);
     options.mapped = 0;
     options.takes_kept_samples = !count_narrow_;
     options.samples = PieceAccessOptions{}.samples;
     const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools_for(piece)), options);
-    const SurfaceAccess& access = choice.setups.front().access;
-    return {access.unreachable_mm2(), access.unreachable_share()};
+    return unreachable_surface(choice.setups.front());
 }
 
 const SetupOrder* Setups::order_for(const Piece& piece) const {
@@ -168,12 +175,11 @@ const SetupOrder* Setups::order_for(const Piece& piece) const {
 }
 
 UnreachableSurface Setups::left_by_setup(const Piece& piece) {
-    const SurfaceAccess& access = held(piece).setup().access;
-    return {access.unreachable_mm2(), access.unreachable_share()};
+    return unreachable_surface(placed(piece).setup());
 }
 
 double Setups::min_gain_mm2() const {
-    const double side = 4 * smallest_radius(planned_);
+    const double side = 4 * limiting_tools(planned_).smallest_radius;
     return side * side;
 }
 
@@ -192,23 +198,23 @@ const std::vector<std::uint16_t>& Setups::tools_for(const Piece& piece) const {
     return order != nullptr && !order->tools.empty() ? order->tools : tools_;
 }
 
-PieceSetup Setups::piece_setup_of(const Piece& piece) const {
-    const Cell planned = with_tools(cell_, tools_for(piece));
-    PieceSetup piece_setup{choose_setup(piece, planned, options_for(piece)), {}, piece.mesh};
-    for (Setup& setup : piece_setup.choice.setups) setup.tools = tools_for(piece);
-    piece_setup.stock_fit = check_stock_fit(piece_setup.setup(), planned);
-    return piece_setup;
+MappedSetup Setups::with_stock_fit(SetupChoice choice, const Piece& piece, const Cell& planned) const {
+    for (Setup& setup : choice.setups) setup.tools = tools_for(piece);
+    StockFit fit = check_stock_fit(choice.setups.front(), planned);
+    return {std::move(choice), std::move(fit)};
 }
 
-PieceSetup Setups::held_of(const Piece& piece, const PieceSetup& best, const Context& context) const {
-    if (!cell_.machine) return best;
+MappedSetup Setups::mapped_of(const Piece& piece) const {
+    const Cell planned = with_tools(cell_, tools_for(piece));
+    return with_stock_fit(choose_setup(piece, planned, options_for(piece)), piece, planned);
+}
+
+PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const {
+    if (!cell_.machine) return {mapped, {}};
     const Cell planned = with_tools(cell_, tools_for(piece));
     const ReachableSetupOptions options{options_for(piece), cell_.machine->max_unreachable};
-    ReachableSetup held = reachable_setup(piece, best.choice, planned, options, context);
-    PieceSetup piece_setup{std::move(held.choice), {}, piece.mesh, std::move(held.reachability)};
-    for (Setup& setup : piece_setup.choice.setups) setup.tools = tools_for(piece);
-    piece_setup.stock_fit = check_stock_fit(piece_setup.setup(), planned);
-    return piece_setup;
+    ReachableSetup reachable = reachable_setup(piece, mapped.choice, planned, options, context);
+    return {with_stock_fit(std::move(reachable.choice), piece, planned), std::move(reachable.reachability)};
 }
 
 }  // namespace qchopper

@@ -1,12 +1,16 @@
-// How pieces are milled in a cell. Each piece is computed once, for the stop rules and again for the jobs.
+// How pieces are milled in a cell, worked out as far as is asked: on samples for the stop rules, by height fields to
+// compare cuts, and placed on the table for jobs.
 //
-// Lengths in mm. Not for several threads at once.
+// Lengths in mm. Each stage of a piece is computed once while the piece, known by its mesh, is kept. Not for several
+// threads at once.
 
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/store/decisions.h"
@@ -19,12 +23,17 @@
 
 namespace qchopper {
 
-struct PieceSetup {
+// The setup of a piece by height fields (choose_setup.h): where its block stands is not known.
+struct MappedSetup {
     SetupChoice choice;
-    StockFit stock_fit;                             // of the setup
-    std::shared_ptr<const TriangleMesh> mesh;       // of the piece; while it is held, its address is not used again
-    MachineReachability machine_reachability = {};  // of the setup; not checked but by held()
+    StockFit stock_fit;  // of the setup
     const Setup& setup() const { return choice.setups.front(); }
+};
+
+// The setup that a job is made of: with the place of the block, and another base or other directions where the machine
+// does not hold every pose of the mapped one (reachable_setup.h). In a cell without a machine it is the mapped one.
+struct PlacedSetup : MappedSetup {
+    MachineReachability machine_reachability;  // of the setup
     bool fits() const { return stock_fit.fits() && machine_reachability.holds(); }
 };
 
@@ -36,7 +45,7 @@ class Setups {
     // The same with the tools of set_tools() alone.
     const Cell& planned() const { return planned_; }
 
-    // What the operator decided, in place of what was decided before.
+    // What the operator decided, in place of what was decided before. A change forgets all that is known of pieces.
     void set_orders(std::vector<SetupOrder> orders);
     // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools() of
     // cam/cell/allowed_tools.h throws.
@@ -45,58 +54,63 @@ class Setups {
     void set_count_narrow(bool count_narrow);
     bool counts_narrow() const { return count_narrow_; }
 
-    // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
-    void compute(std::span<const Piece> pieces, const Context& context);
-    // Valid while this object lives. Pieces are identified by their mesh.
-    const PieceSetup& of(const Piece& piece);
+    // Valid until a piece's mesh is freed, the piece is not kept, or what was decided changes.
+    const MappedSetup& mapped(const Piece& piece);
+    const PlacedSetup& placed(const Piece& piece);
+    // The same of several pieces, on several threads. Preconditions: their meshes are different. Report progress in
+    // pieces. Throw Cancelled.
+    void map(std::span<const Piece> pieces, const Context& context);
+    void place(std::span<const Piece> pieces, const Context& context);
 
-    // The setups that jobs are made of: with the place of the block, and another base or other directions where the
-    // machine does not hold every pose of the best one (reachable_setup.h). The same as compute() and of() in a cell
-    // without a machine.
-    void compute_held(std::span<const Piece> pieces, const Context& context);
-    const PieceSetup& held(const Piece& piece);
-
-    // Forgets those of all other pieces.
+    // Forgets the setups of all other pieces.
     void keep_only(std::span<const Piece> pieces);
 
-    // For the stop rules, cheaper than held() and of(): whether block and extreme poses of milling from above are
-    // possible, kept per mesh; and on samples of the surface from the best base.
+    // For the stop rules, cheaper than setups: whether block and extreme poses of milling from above are possible; and
+    // on samples of the surface from the best base, with the cell's tools or by a tool without holder that takes every
+    // direction within the cell's tilt.
     bool fits(const Piece& piece);
-    // For the stop rules as well, by held(): whether the machine holds every pose of the setup, and the block is no
-    // higher than the longest tool, or hardly any more of the surface is out of reach than of a tool without holder
-    // that tilts in all directions. A piece that is shorter than that tool always is, because cutting it further is no
-    // remedy. True in a cell without a machine.
-    bool is_machinable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
-    // By the setup that its job is made of, held().
+    UnreachableSurface unreachable_without_holder(const Piece& piece);
+    // For the stop rules as well, by placed(): whether the machine holds every pose of the setup, and the block is no
+    // higher than the longest tool, or hardly any more of the surface is out of reach than without holder. A piece that
+    // is shorter than that tool always is, because cutting it further is no remedy. True in a cell without a machine.
+    bool is_machinable(const Piece& piece);
+    // By the setup that its job is made of, placed().
     UnreachableSurface left_by_setup(const Piece& piece);
     // Of cuts that make surface reachable: a square of two diameters of the finest tool, within which it cannot tell
     // what it reaches from what its own radius leaves.
     double min_gain_mm2() const;
 
  private:
-    using PieceSetups = std::map<const TriangleMesh*, PieceSetup>;
-    struct Answer {
-        std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be that of another mesh
-        bool is_yes = false;
+    // How far a piece is worked out; each stage is empty until it is asked for.
+    struct Stages {
+        std::optional<bool> fits;
+        std::optional<UnreachableSurface> sampled;
+        std::optional<UnreachableSurface> without_holder;
+        std::optional<MappedSetup> mapped;
+        std::optional<PlacedSetup> placed;
+        std::optional<bool> is_machinable;
     };
-    using Answers = std::map<const TriangleMesh*, Answer>;
+    Stages& stages_of(const Piece& piece);
+    template <class Stage, class Make>
+    void compute(std::optional<Stage> Stages::*stage, const std::string& what, std::span<const Piece> pieces,
+                 const Context& context, const Make& make);
     const SetupOrder* order_for(const Piece& piece) const;
     SetupOptions options_for(const Piece& piece) const;
     const std::vector<std::uint16_t>& tools_for(const Piece& piece) const;
-    PieceSetup piece_setup_of(const Piece& piece) const;
+    MappedSetup with_stock_fit(SetupChoice choice, const Piece& piece, const Cell& planned) const;
+    MappedSetup mapped_of(const Piece& piece) const;
+    PlacedSetup placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const;
+    UnreachableSurface sampled_of(const Piece& piece) const;
     bool find_whether_machinable(const Piece& piece);
-    PieceSetup held_of(const Piece& piece, const PieceSetup& best, const Context& context) const;
 
     Cell cell_;
     std::vector<std::uint16_t> tools_;
     Cell planned_;
     std::vector<SetupOrder> orders_;
     bool count_narrow_ = false;
-    PieceSetups piece_setups_;
-    PieceSetups held_;
-    Answers fits_;
-    Answers machinable_;
+    // By the owner of the mesh, which is never another one's, as an address could be.
+    std::map<std::weak_ptr<const TriangleMesh>, Stages, std::owner_less<>> stages_;
 };
 
 }  // namespace qchopper

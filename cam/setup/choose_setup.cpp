@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
 
+#include "cam/setup/limiting_tools.h"
 #include "cam/setup/mapped_access.h"
 #include "cam/setup/paint_narrow.h"
 #include "cam/setup/placement/place_block.h"
@@ -84,8 +84,8 @@ Cell with_standing_stock(const Cell& cell) {
     return standing;
 }
 
-// The piece on one base in its block, before anything is asked of the tool. It is turned by a quarter where its block
-// fits into the cell only so; where an unsawn one fits in neither way, other stock is asked for.
+// The piece on one base in its block, before anything is asked of the tool. It is turned by a quarter where its
+// block fits into the cell only so; where an unsawn one fits in neither way, other stock is asked for.
 Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     Setup setup;
     setup.base_number = base.number;
@@ -115,11 +115,6 @@ Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
 
 double tilt_of(const Cell& cell, const SetupOptions& options) {
     return options.max_tilt_deg.value_or(max_tilt_deg(cell));
-}
-
-std::optional<ToolBody> deepest_tool(const Cell& cell) {
-    if (!cell.machine) return std::nullopt;
-    return tool_body(longest_tool(cell.machine->tools), cell.machine->spindle);
 }
 
 double ignored_mm2(const TriangleMesh& mesh) {
@@ -159,7 +154,7 @@ double too_narrow_mm2(const MappedAccess& mapped, const SurfaceSamples& samples,
 class Choice {
  public:
     Choice(const Piece& piece, const Cell& cell, const SetupOptions& options)
-        : piece_(piece), cell_(cell), options_(options), bases_(bases_of(piece)) {
+        : piece_(piece), cell_(cell), options_(options), tools_(limiting_tools(cell)), bases_(bases_of(piece)) {
         for (const PieceBase& base : bases_) {
             setups_.push_back(laid_out(piece, base, cell));
             add_workholding(setups_.back(), nullptr);
@@ -239,7 +234,7 @@ class Choice {
         if (options_.mapped > 0 || options_.count_narrow) {
             std::vector<bool> is_cap(piece_.mesh->triangles.size());
             for (std::size_t t = 0; t < is_cap.size(); ++t) is_cap[t] = cap_of(*piece_.mesh, t) != no_cap;
-            is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {smallest_radius(cell_), 0});
+            is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {tools_.smallest_radius, 0});
         }
         for (std::size_t i = 0; i < bases_.size(); ++i) fill(setups_[i], access_->bases[i], options.tilt_deg);
     }
@@ -265,17 +260,7 @@ class Choice {
     }
 
     std::vector<SurfaceState> judge_by_maps(Setup& setup) const {
-        MappedSetup mapped;
-        mapped.mesh = piece_.mesh.get();
-        mapped.base = setup.base;
-        mapped.up = setup.up;
-        mapped.piece_in_setup = setup.piece_in_setup;
-        mapped.block = setup.block_box();
-        for (const ToolOrientation& d : setup.access.orientations) mapped.directions.push_back(d.tool_axis);
-        mapped.tool = deepest_tool(cell_);
-        mapped.smallest_ball_radius = smallest_radius(cell_);
-        mapped.steep_counts = setup.access.steep_counts;
-        MappedAccess result = mapped_access(mapped, options_.map);
+        MappedAccess result = mapped_access(*piece_.mesh, setup, tools_, options_.map);
         SurfaceAccess& access = result.access;
         access.too_narrow_mm2 = too_narrow_mm2(result, access_->samples->scan->samples, is_narrow_);
         access.narrow_counts = setup.access.narrow_counts;
@@ -288,8 +273,8 @@ class Choice {
     }
 
     static long steps(double share) { return std::lround(share / equal_share); }
-    // The largest share out of reach with which a setup is preferred for its workholding: the cell's limit, or that of
-    // the setup that leaves least.
+    // The largest share out of reach with which a setup is preferred for its workholding: the cell's limit, or that
+    // of the setup that leaves least.
     double max_for_workholding() const {
         double least = 1;
         for (const Setup& s : setups_) {
@@ -339,6 +324,7 @@ class Choice {
     const Piece& piece_;
     const Cell& cell_;
     const SetupOptions& options_;
+    const LimitingTools tools_;
     std::vector<PieceBase> bases_;
     std::vector<Setup> setups_;  // one per base
     std::optional<PieceAccess> access_;
@@ -349,15 +335,6 @@ class Choice {
 
 double max_tilt_deg(const Cell& cell) {
     return cell.machine ? cell.machine->max_tilt / degree : default_tilt_deg;
-}
-
-double smallest_radius(const Cell& cell) {
-    if (!cell.machine) return cell.tool.diameter / 2;
-    double least = std::numeric_limits<double>::infinity();
-    for (const CuttingTool& tool : cell.machine->tools) {
-        if (!is_drill(tool)) least = std::min(least, tool.diameter);
-    }
-    return least / 2;
 }
 
 SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options) {

@@ -45,10 +45,6 @@ struct SetupChoice {
 // The largest tilt of the tool axis from the vertical, degrees: that of the cell, without a machine default_tilt_deg.
 double max_tilt_deg(const Cell& cell);
 
-// Of the tools of a cell, without its drills, the smallest radius. Precondition: as longest_tool()
-// (holder_clearance.h).
-double smallest_radius(const Cell& cell);
-
 // Ranked are, first of all, those whose block fits into the cell; then those whose workholding passes (workholding.h),
 // unless they leave a larger share out of reach than the cell's max_unreachable and the setup that leaves least; then
 // by the least unreachable area, the least foam that stays, the least rest material and the smallest block. With

@@ -137,7 +137,8 @@ struct StateSums {
 
 class Reaching {
  public:
-    explicit Reaching(const MappedSetup& setup) : setup_(setup), mesh_(*setup.mesh), surfaces_(mesh_.triangles.size()) {
+    Reaching(const TriangleMesh& mesh, const Setup& setup)
+        : setup_(setup), mesh_(mesh), surfaces_(mesh.triangles.size()) {
         area_ = summed<StateSums>(surfaces_.size(), [&](StateSums& sums, std::size_t t) {
                     if (counts(t)) sums.area += norm(area_vector(mesh_, t));
                 }).area;
@@ -164,14 +165,15 @@ class Reaching {
         orientation.tool_axis = map.tool_axis();
         orientation.tilt_deg =
             std::acos(std::clamp(dot(orientation.tool_axis, setup_.up), -1.0, 1.0)) * 180 / std::numbers::pi;
-        const Vec3 tool_axis = rotate(setup_.piece_in_setup, orientation.tool_axis);
-        Depths depths(norm(setup_.block.size()), area_);
+        const Vec3 tool_axis = setup_.tool_axis(orientation);
+        const Box block_box = setup_.block_box();
+        Depths depths(norm(block_box.size()), area_);
         const auto gained = summed<Sum>(surfaces_.size(), [&](Sum& block, std::size_t t) {
             if (!counts(t)) return;
             Surface& surface = surfaces_[t];
             if (is_cut_freely(map, t, reached[t])) {
                 const Vec3 middle = apply(setup_.piece_in_setup, middle_of(mesh_, t));
-                depths.add(way_out(setup_.block, middle, tool_axis), norm(area_vector(mesh_, t)));
+                depths.add(way_out(block_box, middle, tool_axis), norm(area_vector(mesh_, t)));
             }
             if (reached[t] <= surface.reached) return;
             block.value += static_cast<double>(reached[t] - surface.reached) * norm(area_vector(mesh_, t));
@@ -229,7 +231,7 @@ class Reaching {
     // Whether a triangle tells how deep the tool goes.
     bool is_cut_freely(const HeightField& map, std::size_t t, float reached) const {
         if (reached > 0.5F) return is_open_around(map, middle_of(mesh_, t));
-        if (setup_.steep_counts || !is_steep(mesh_, t, map.tool_axis())) return false;
+        if (setup_.access.steep_counts || !is_steep(mesh_, t, map.tool_axis())) return false;
         const Vec3 beside = middle_of(mesh_, t) + 2 * map.cell * normalized(area_vector(mesh_, t));
         return height_above(map, beside) == 0;
     }
@@ -238,21 +240,21 @@ class Reaching {
     // Whether the triangle is surface that is to be reached.
     bool counts(std::size_t t) const { return !is_base(t) && !is_ignored(mesh_, t); }
 
-    const MappedSetup& setup_;
+    const Setup& setup_;
     const TriangleMesh& mesh_;
     double area_ = 0;
     std::vector<Surface> surfaces_;
 };
 
 // In the piece's box, because what lies below the surface seen from straight above lies there.
-std::optional<StockPoints> stock_around(const MappedSetup& setup, std::size_t count) {
-    const TriangleMesh& mesh = *setup.mesh;
+std::optional<StockPoints> stock_around(const TriangleMesh& mesh, const Setup& setup, std::size_t count) {
     const Vec3 any = apply(setup.piece_in_setup, mesh.points[mesh.triangles.front()[0]]);
     Box box{any, any};
     for (const Vec3& p : mesh.points) extend(box, apply(setup.piece_in_setup, p));
+    const Box block = setup.block_box();
     for (int i = 0; i < 3; ++i) {
-        box.min[i] = std::max(box.min[i], setup.block.min[i]);
-        box.max[i] = std::min(box.max[i], setup.block.max[i]);
+        box.min[i] = std::max(box.min[i], block.min[i]);
+        box.max[i] = std::min(box.max[i], block.max[i]);
     }
     box.min.z = std::max(box.min.z, 0.0);
     const Vec3 size = box.size();
@@ -272,29 +274,29 @@ void mill_with_ball(StockPoints& stock_points, const HeightField& map, double ra
 
 }  // namespace
 
-MappedAccess mapped_access(const MappedSetup& setup, const HeightFieldOptions& options) {
-    assert(setup.mesh != nullptr && !setup.directions.empty());
-    const TriangleMesh& mesh = *setup.mesh;
+MappedAccess mapped_access(const TriangleMesh& mesh, const Setup& setup, const LimitingTools& tools,
+                           const HeightFieldOptions& options) {
+    assert(!setup.access.orientations.empty());
     const double cell = cell_of(mesh, options);
-    std::optional<StockPoints> stock_points = stock_around(setup, options.stock_points);
+    std::optional<StockPoints> stock_points = stock_around(mesh, setup, options.stock_points);
     std::optional<StockPoints> stock_after_ball;
-    if (setup.smallest_ball_radius > 0) stock_after_ball = stock_points;
-    Reaching reaching(setup);
+    if (tools.smallest_radius > 0) stock_after_ball = stock_points;
+    Reaching reaching(mesh, setup);
     MappedAccess result;
-    for (const Vec3& tool_axis : setup.directions) {
-        HeightField map = height_field(mesh, tool_axis, cell);
+    for (const ToolOrientation& orientation : setup.access.orientations) {
+        HeightField map = height_field(mesh, orientation.tool_axis, cell);
         std::vector<float> share = reached_share(mesh, map);
         reaching.join_seen(map, share);
         if (stock_points) stock_points->mill(map);
-        if (stock_after_ball) mill_with_ball(*stock_after_ball, map, setup.smallest_ball_radius);
-        if (setup.tool && raise_to_holder_clearance(map, *setup.tool, setup.piece_in_setup)) {
+        if (stock_after_ball) mill_with_ball(*stock_after_ball, map, tools.smallest_radius);
+        if (tools.longest && raise_to_holder_clearance(map, *tools.longest, setup.piece_in_setup)) {
             share = reached_share(mesh, map);
         }
         result.access.orientations.push_back(reaching.join_reached(map, share));
     }
     reaching.finish(result);
     result.access.method = AccessMethod::mapped;
-    result.access.steep_counts = setup.steep_counts;
+    result.access.steep_counts = setup.access.steep_counts;
     result.access.foam_mm3 = stock_points ? stock_points->volume_mm3() : 0;
     if (stock_after_ball) result.access.rest_material_mm3 = stock_after_ball->volume_mm3() - result.access.foam_mm3;
     result.stock_points = std::move(stock_points);

@@ -11,26 +11,13 @@
 #include <optional>
 #include <vector>
 
-#include "base/box.h"
-#include "base/pose.h"
-#include "cam/setup/holder_clearance.h"
+#include "cam/setup/limiting_tools.h"
+#include "cam/setup/setup.h"
 #include "cam/setup/stock_points.h"
 #include "cam/setup/surface_access.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
-
-struct MappedSetup {
-    const TriangleMesh* mesh = nullptr;  // in piece coordinates, consistent and closed
-    std::optional<std::int32_t> base;    // cut whose cap lies on the table
-    Vec3 up;                             // unit
-    Pose piece_in_setup;                 // z = 0 is the top of the spoil layer
-    Box block;                           // in setup coordinates, the spoil layer included
-    std::vector<Vec3> directions;        // unit, in piece coordinates; the first is `up`
-    std::optional<ToolBody> tool;        // nothing: a tool without holder
-    double smallest_ball_radius = 0;     // of the tools, for the rest material; 0: none is computed
-    bool steep_counts = true;
-};
 
 struct HeightFieldOptions {
     double cell = 0;                       // mm; 0: a 700th of the longest side of the piece's box, 0.25 mm at least
@@ -61,9 +48,12 @@ struct MappedAccess {
 // The depth of a direction is right to 1/4096 of the block's diagonal and leaves out the deepest ten-thousandth of the
 // area that it reaches, and what lies within a cell of higher surface.
 //
-// Preconditions: the directions are not more than 90 degrees from `up`; the mesh has area. Throws as height_field()
-// does. O(directions x (triangles + cells)); beside the mesh at most 8 bytes a cell of a single map, 24 bytes a
+// Of the setup are used its base, pose and block, the tool axes of its access and whether steep counts; without a
+// smallest radius there is no rest material. Preconditions: the mesh is that of the piece, consistent and closed, and
+// has area; there is a tool axis, and none is more than 90 degrees from `up`. Throws as height_field() does.
+// O(directions x (triangles + cells)); beside the mesh at most 8 bytes a cell of a single map, 24 bytes a
 // triangle and a bit a foam point.
-MappedAccess mapped_access(const MappedSetup& setup, const HeightFieldOptions& options = {});
+MappedAccess mapped_access(const TriangleMesh& mesh, const Setup& setup, const LimitingTools& tools,
+                           const HeightFieldOptions& options = {});
 
 }  // namespace qchopper

@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "cam/setup/holder_clearance.h"
+#include "cam/setup/limiting_tools.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -323,7 +323,7 @@ void add_tips(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis_in_pi
 std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                                             const PoseOptions& options) {
     assert(cell.machine && !setup.access.orientations.empty() && options.step > 0);
-    const ToolBody tool = tool_body(longest_tool(cell.machine->tools), cell.machine->spindle);
+    const ToolBody tool = *limiting_tools(cell).longest;
     const Box block = setup.milled_box();
     std::vector<OrientationPoses> all;
     for (const ToolOrientation& orientation : setup.access.orientations) {

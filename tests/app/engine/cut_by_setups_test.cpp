@@ -179,7 +179,7 @@ TEST_F(CutBySetups, ThePlaneThatComesFirstLeavesLeast) {
         double sum = 0;
         for (const Piece& piece : after.pieces) {
             if (made_by(piece) != static_cast<std::int32_t>(after.cuts.size())) continue;
-            const SurfaceAccess access = project.setups()->of(piece).setup().access;
+            const SurfaceAccess access = project.setups()->mapped(piece).setup().access;
             if (access.unreachable_share() > limit) sum += access.unreachable_mm2();
         }
         return sum;

@@ -316,8 +316,8 @@ struct Slab {
 
     PiecePrograms programs() {
         setups = std::make_unique<Setups>(cell);
-        setups->compute_held({&piece, 1}, {});
-        const PieceSetup& piece_setup = setups->held(piece);
+        setups->place({&piece, 1}, {});
+        const PlacedSetup& piece_setup = setups->placed(piece);
         return make_programs(piece, piece_setup, 1, cell, caps_of_slab(piece_setup.setup()), {});
     }
 };

@@ -58,8 +58,8 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     input.program_version = version;
     input.cell = made.cell.cell;
     Setups setups(input.cell);
-    setups.compute_held({&input.piece, 1}, {});
-    const PieceSetup& piece_setup = setups.held(input.piece);
+    setups.place({&input.piece, 1}, {});
+    const PlacedSetup& piece_setup = setups.placed(input.piece);
     EXPECT_TRUE(piece_setup.fits());
     input.setup = piece_setup.setup();
     input.stock_fit = piece_setup.stock_fit;

@@ -67,15 +67,15 @@ TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeMilled) {
 TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
     Setups setups(cell_named("kr60-ha"));
     const Piece high = frame(120);
-    const auto with_all = setups.of(high).setup();
+    const auto with_all = setups.mapped(high).setup();
     EXPECT_TRUE(with_all.tools.empty());
     setups.set_tools({4});  // 100 mm long, the others 150
     EXPECT_LT(low_piece_height(setups.planned()), low_piece_height(setups.cell()) - 40);
-    const auto with_finest = setups.of(high).setup();
+    const auto with_finest = setups.mapped(high).setup();
     EXPECT_EQ(with_finest.tools, std::vector<std::uint16_t>{4});
     EXPECT_GT(with_finest.access.holder_mm2, with_all.access.holder_mm2 + 1000) << "its holder meets the walls";
     setups.set_orders({{"A", {}, {}, {3, 4}}});
-    EXPECT_EQ(setups.held(high).setup().tools, (std::vector<std::uint16_t>{3, 4})) << "of one piece";
+    EXPECT_EQ(setups.placed(high).setup().tools, (std::vector<std::uint16_t>{3, 4})) << "of one piece";
     EXPECT_THROW(setups.set_tools({9}), InputError);
 }
 

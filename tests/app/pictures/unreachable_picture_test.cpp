@@ -57,8 +57,8 @@ TEST(UnreachablePicture, OfAProjectIsThatOfTheSetupsThatJobsAreMadeOf) {
     const std::vector<Piece> pieces{cut_piece(ball, {{0, 0, 1}, -56.3}, 1)->pieces.at(0)};
     Setups setups(std::move(cell));
     setups.set_orders({{pieces[0].name, 1, {}}});
-    const std::vector<SurfaceState> best = setups.of(pieces[0]).choice.states;
-    const std::vector<SurfaceState> held = setups.held(pieces[0]).choice.states;
+    const std::vector<SurfaceState> best = setups.mapped(pieces[0]).choice.states;
+    const std::vector<SurfaceState> held = setups.placed(pieces[0]).choice.states;
     ASSERT_NE(best, held);
     const Folder folder;
     std::filesystem::create_directories(folder.path / "pictures");

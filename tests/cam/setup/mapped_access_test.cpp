@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
+#include "tests/cam/setup/access_case.h"
 #include "tests/cam/setup/ray_areas.h"
 #include "tests/cam/setup/solids.h"
 #include "tests/reference/cam/setup/remaining_volume.h"
@@ -20,6 +21,7 @@
 namespace qchopper {
 namespace {
 
+using test_pieces::AccessCase;
 using test_pieces::cell_solid;
 using test_pieces::steps;
 
@@ -34,8 +36,8 @@ Vec3 tilted(double tilt_deg, double azimuth_deg = 0) {
 
 // Straight up alone, in a block with 10 mm of foam around and under the piece, which stands on its cap 0 at its own
 // z = 0.
-MappedSetup standing(const TriangleMesh& mesh) {
-    MappedSetup setup;
+AccessCase standing(const TriangleMesh& mesh) {
+    AccessCase setup;
     setup.mesh = &mesh;
     setup.base = 0;
     setup.up = {0, 0, 1};
@@ -46,14 +48,14 @@ MappedSetup standing(const TriangleMesh& mesh) {
     return setup;
 }
 
-MappedAccess reach_of(const MappedSetup& setup, double cell = 0.5, std::size_t stock_points = 1U << 18U) {
-    return mapped_access(setup, {cell, stock_points});
+MappedAccess reach_of(const AccessCase& setup, double cell = 0.5, std::size_t stock_points = 1U << 18U) {
+    return test_pieces::mapped_access(setup, {cell, stock_points});
 }
 
 TEST(MappedAccess, ABoxIsReachedFromAboveButForItsSteepWalls) {
     const TriangleMesh mesh =
         cell_solid(steps(0, 100, 10), steps(0, 80, 10), steps(0, 60, 10), [](Vec3) { return true; });
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     const MappedAccess from_above = reach_of(setup);
     const SurfaceAccess& access = from_above.access;
     const double walls = 2 * 60 * (100 + 80);
@@ -117,7 +119,7 @@ TEST(MappedAccess, ASlotIsReachedAsFarAsTheTiltLooksIn) {
     const TriangleMesh mesh = cell_solid(steps(0, 60, 1), {0, 25, 50}, {0, 20, 20 + high, 50},
                                          [](Vec3 p) { return p.x < 60 - deep || p.z < 20 || p.z > 20 + high; });
     for (const double tilt : {20.0, 45.0, 60.0, 80.0}) {
-        MappedSetup setup = standing(mesh);
+        AccessCase setup = standing(mesh);
         setup.directions.push_back(tilted(tilt));
         const MappedAccess found = reach_of(setup, 0.25);
         double open = 0;
@@ -146,7 +148,7 @@ TriangleMesh shaft() {
 
 TEST(MappedAccess, AHolderKeepsAShortToolOutOfADeepShaft) {
     const TriangleMesh mesh = shaft();
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     const SurfaceAccess without = reach_of(setup).access;
     EXPECT_EQ(without.holder_mm2, 0);
     EXPECT_NEAR(without.orientations[0].depth_mm, 120, 0.06);
@@ -174,7 +176,7 @@ TEST(MappedAccess, AHolderKeepsAShortToolOutOfADeepShaft) {
 // 30.5 / (61 / 22) is 11 by rounding, but 11 cells of that width are more than the radius.
 TEST(MappedAccess, AHolderAsWideAsAWholeNumberOfCellsIsNoWider) {
     const TriangleMesh mesh = shaft();
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     setup.tool = ToolBody{80, {{61, 50}}};
     EXPECT_NEAR(reach_of(setup, 61.0 / 44).access.holder_mm2, 40 * 40, 0.05 * 40 * 40) << "cells at its outline";
 }
@@ -182,7 +184,7 @@ TEST(MappedAccess, AHolderAsWideAsAWholeNumberOfCellsIsNoWider) {
 // A tool that lies flat: its holder would dip into the spoil layer.
 TEST(MappedAccess, AHolderMayNotComeBelowTheSpoilLayersTop) {
     const TriangleMesh mesh = cell_solid(steps(0, 40, 20), steps(0, 40, 1), steps(0, 60, 1), [](Vec3) { return true; });
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     setup.directions.push_back({1, 0, 0});
     EXPECT_EQ(reach_of(setup).access.holder_mm2, 0);
     setup.tool = ToolBody{50, {{40, 30}}};
@@ -199,7 +201,7 @@ TEST(MappedAccess, AHolderMayNotComeBelowTheSpoilLayersTop) {
 TEST(MappedAccess, FoamUnderAShelfHasItsVolume) {
     const TriangleMesh mesh =
         cell_solid({0, 30, 90}, {0, 35, 70}, {0, 10, 50, 65}, [](Vec3 p) { return p.z < 10 || p.x < 30 || p.z > 50; });
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     const SurfaceAccess from_above = reach_of(setup, 0.5, 1U << 20U).access;
     const double under = 60 * 70 * 40;
     EXPECT_NEAR(from_above.foam_mm3, under, 0.01 * under);
@@ -216,7 +218,7 @@ TEST(MappedAccess, FoamUnderAShelfHasItsVolume) {
 // The points of the foam against the grid of remaining_volume().
 TEST(MappedAccess, FoamIsWhatRemainsBesideThePiece) {
     const TriangleMesh mesh = sample(Specimen::vertebra, {.faces = 20'000});
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     setup.base.reset();
     setup.directions = {{0, 0, 1}, tilted(50), tilted(50, 120)};
     const double cell = 0.5;
@@ -227,7 +229,7 @@ TEST(MappedAccess, FoamIsWhatRemainsBesideThePiece) {
     const Vec3 size = setup.block.max - Vec3{setup.block.min.x, setup.block.min.y, 0};
     for (const Vec3& d : setup.directions) {
         maps.push_back(height_field(mesh, d, cell));
-        MappedSetup some = setup;
+        AccessCase some = setup;
         some.directions.resize(maps.size());
         const double foam = reach_of(some, cell, 1U << 21U).access.foam_mm3;
         const double remaining = remaining_volume(maps, size, box_in_piece, 2) - volume_mm3(mesh);
@@ -241,12 +243,12 @@ TEST(MappedAccess, RestMaterialOfACornerIsThatOfTheBall) {
     const TriangleMesh mesh =
         cell_solid({0, 30, 100}, {0, 75, 150}, {0, 20, 60}, [](Vec3 p) { return p.z < 20 || p.x < 30; });
     for (const double radius : {3.0, 8.0, 15.0}) {
-        MappedSetup setup = standing(mesh);
+        AccessCase setup = standing(mesh);
         setup.smallest_ball_radius = radius;
         const double expected = (1 - pi / 4) * radius * radius * 150;
         EXPECT_NEAR(reach_of(setup, 0.25, 1U << 22U).access.rest_material_mm3, expected, 0.15 * expected) << radius;
     }
-    MappedSetup setup = standing(mesh);
+    AccessCase setup = standing(mesh);
     EXPECT_EQ(reach_of(setup).access.rest_material_mm3, 0) << "of no ball";
 }
 
@@ -255,14 +257,14 @@ const TriangleMesh& bone() {
     return mesh;
 }
 
-MappedSetup lying(const TriangleMesh& mesh) {
-    MappedSetup setup = standing(mesh);
+AccessCase lying(const TriangleMesh& mesh) {
+    AccessCase setup = standing(mesh);
     setup.base.reset();
     return setup;
 }
 
 TEST(MappedAccess, TurningEverythingTogetherChangesNothing) {
-    MappedSetup setup = lying(bone());
+    AccessCase setup = lying(bone());
     setup.directions = {{0, 0, 1}, tilted(40, 20), tilted(60, 200)};
     setup.tool = ToolBody{60, {{40, 50}, {180, 350}}};
     setup.smallest_ball_radius = 5;
@@ -274,7 +276,7 @@ TEST(MappedAccess, TurningEverythingTogetherChangesNothing) {
     frame.points.insert(frame.points.end(), setup.directions.begin(), setup.directions.end());
     const TriangleMesh turned_frame = shapes::rotated(frame, axis, 1.1);
     const Pose turn_back{{turned_frame.points[0], turned_frame.points[1], turned_frame.points[2]}, {}};
-    MappedSetup same = setup;
+    AccessCase same = setup;
     same.mesh = &turned;
     same.directions.assign(turned_frame.points.begin() + 3, turned_frame.points.end());
     same.up = same.directions.front();
@@ -295,7 +297,7 @@ TEST(MappedAccess, TurningEverythingTogetherChangesNothing) {
 }
 
 TEST(MappedAccess, ALongerToolNeverReachesLess) {
-    MappedSetup setup = lying(bone());
+    AccessCase setup = lying(bone());
     setup.directions = {{0, 0, 1}, tilted(60, 45)};
     double before = INFINITY;
     bool is_ever_short = false;
@@ -312,7 +314,7 @@ TEST(MappedAccess, ALongerToolNeverReachesLess) {
 }
 
 TEST(MappedAccess, AFurtherDirectionNeverMakesLessReached) {
-    MappedSetup setup = lying(bone());
+    AccessCase setup = lying(bone());
     setup.tool = ToolBody{100, {{40, 50}, {180, 350}}};
     setup.smallest_ball_radius = 4;
     double unreachable = INFINITY;
@@ -332,7 +334,7 @@ TEST(MappedAccess, AFurtherDirectionNeverMakesLessReached) {
 }
 
 TEST(MappedAccess, IsTheSameOnAnyNumberOfThreads) {
-    MappedSetup setup = lying(bone());
+    AccessCase setup = lying(bone());
     setup.directions = {{0, 0, 1}, tilted(50, 10)};
     setup.tool = ToolBody{50, {{40, 50}, {180, 350}}};
     setup.smallest_ball_radius = 4;
@@ -370,7 +372,7 @@ bool touches(const std::vector<Vec3>& vertices, Vec3 tip, Vec3 tool_axis, const 
 TEST(MappedAccess, HolderAgreesWithALoopOverTheVertices) {
     const TriangleMesh& mesh = bone();
     for (const Vec3 d : {Vec3{0, 0, 1}, tilted(50, 100)}) {
-        MappedSetup setup = lying(mesh);
+        AccessCase setup = lying(mesh);
         // High above the table, so that only the piece is in the way.
         setup.piece_in_setup.shift.z += 5000;
         setup.block.max.z += 6000;

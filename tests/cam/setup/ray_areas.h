@@ -11,9 +11,9 @@
 #include <numbers>
 #include <vector>
 
-#include "cam/setup/mapped_access.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/rays.h"
+#include "tests/cam/setup/access_case.h"
 
 namespace qchopper::test_pieces {
 
@@ -57,7 +57,7 @@ inline TriangleMesh with_short_edges(const TriangleMesh& mesh, double most) {
 // vertical apart, which may differ by more. The middles of triangles stand for them, so these are to be small. Returns
 // the share of the area that the rays reach.
 inline double expect_rays_agree(const TriangleMesh& mesh, Vec3 direction, double cell) {
-    MappedSetup setup;
+    AccessCase setup;
     setup.mesh = &mesh;
     setup.up = direction;
     setup.directions = {direction};
