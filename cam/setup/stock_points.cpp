@@ -1,6 +1,5 @@
-// Points inside of the piece are found by the winding number along each column: an edge that two triangles share is
-// compared with a column in the same way for both, so no column passes between them. O(triangles + crossings log
-// crossings + points); 1 bit per point.
+// Points inside of the piece are those in the dexels of their columns (dexel_map.h). Maps take points away column by
+// column, by the bits of words. O(triangles + crossings log crossings + points); 1 bit per point.
 
 #include "cam/setup/stock_points.h"
 
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "segment/raster/dexel_map.h"
 
 namespace qchopper {
 namespace {
@@ -32,26 +32,8 @@ double fraction(std::uint64_t bits, int from) {
     return (static_cast<double>((bits >> from) & 0x1fffff) + 0.5) / 0x200000;
 }
 
-// Whether the edge lies beyond x on the line y; the same for both of its directions.
-bool is_beyond(Vec3 a, Vec3 b, double x, double y) {
-    if ((a.y <= y) == (b.y <= y)) return false;
-    if (b.y < a.y) std::swap(a, b);
-    return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y) > x;
-}
-
-struct ColumnCrossing {
-    std::uint32_t column;
-    std::int32_t winding;  // of what lies above it, less that below it
-    double z;
-};
-
-struct Range {
-    std::size_t first;
-    std::size_t end;
-};
-
 // The squares of a row of the grid that an interval may touch.
-Range squares(double low, double high, double step, std::size_t count) {
+CellSpan squares(double low, double high, double step, std::size_t count) {
     const double most = static_cast<double>(count);
     const double first = std::clamp(std::floor(low / step), 0.0, most);
     const double end = std::clamp(std::floor(high / step) + 1, 0.0, most);
@@ -114,47 +96,34 @@ StockPoints::StockPoints(const TriangleMesh& mesh, const Pose& piece_in_setup, c
              size.z / static_cast<double>(counts_[2])};
     words_ = (counts_[2] + bits_per_word - 1) / bits_per_word;
 
-    std::vector<ColumnCrossing> crossings;
-    for (const Triangle& t : mesh.triangles) {
-        const std::array<Vec3, 3> p{apply(piece_in_setup, mesh.points[t[0]]) - box.min,
-                                    apply(piece_in_setup, mesh.points[t[1]]) - box.min,
-                                    apply(piece_in_setup, mesh.points[t[2]]) - box.min};
-        const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-        const auto [front, back] = std::minmax({p[0].y, p[1].y, p[2].y});
-        const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
-        const Range xs = squares(left, right, step_.x, counts_[0]);
-        const Range ys = squares(front, back, step_.y, counts_[1]);
-        const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-        for (std::size_t y = ys.first; y < ys.end; ++y) {
-            for (std::size_t x = xs.first; x < xs.end; ++x) {
-                const std::size_t index = y * counts_[0] + x;
-                const Column at = column(index);
-                const double px = at.x - box.min.x;
-                const double py = at.y - box.min.y;
-                const bool is_in =
-                    is_beyond(p[0], p[1], px, py) != (is_beyond(p[1], p[2], px, py) != is_beyond(p[2], p[0], px, py));
-                if (!is_in) continue;
-                const double z = p[0].z - (n.x * (px - p[0].x) + n.y * (py - p[0].y)) / n.z;
-                crossings.push_back({static_cast<std::uint32_t>(index), n.z < 0 ? 1 : -1,
-                                     std::isfinite(z) ? std::clamp(z, low, high) : high});
-            }
+    struct Lines {
+        const StockPoints& points;
+        std::size_t columns;
+        std::size_t rows;
+        CellSpan columns_within(double low, double high) const { return squares(low, high, points.step_.x, columns); }
+        CellSpan rows_within(double low, double high) const { return squares(low, high, points.step_.y, rows); }
+        Point2 at(std::size_t column, std::size_t row) const {
+            const Column at = points.column(row * columns + column);
+            return {at.x - points.box_.min.x, at.y - points.box_.min.y};
         }
-    }
-    std::sort(crossings.begin(), crossings.end(), [](const ColumnCrossing& a, const ColumnCrossing& b) {
-        return std::pair(a.column, a.z) < std::pair(b.column, b.z);
-    });
+    };
+    std::vector<Vec3> in_box;
+    in_box.reserve(mesh.points.size());
+    for (const Vec3& p : mesh.points) in_box.push_back(apply(piece_in_setup, p) - box.min);
+    const DexelMap map = dexel_map(in_box, mesh.triangles, Lines{*this, counts_[0], counts_[1]});
 
     left_.assign(counts_[0] * counts_[1] * words_, 0);
-    auto next = crossings.begin();
     for (std::size_t index = 0; index < counts_[0] * counts_[1]; ++index) {
         const double start = column(index).start - box.min.z;
-        int winding = 0;
+        const std::span<const Dexel> solid = map.at(index);
+        auto next = solid.begin();
         for (std::size_t k = 0; k < counts_[2]; ++k) {
             const double z = start + static_cast<double>(k) * step_.z;
-            for (; next != crossings.end() && next->column == index && next->z < z; ++next) winding += next->winding;
-            if (winding <= 0) left_[index * words_ + k / bits_per_word] |= std::uint64_t{1} << (k % bits_per_word);
+            while (next != solid.end() && next->high < z) ++next;
+            if (next == solid.end() || !(next->low < z)) {
+                left_[index * words_ + k / bits_per_word] |= std::uint64_t{1} << (k % bits_per_word);
+            }
         }
-        while (next != crossings.end() && next->column == index) ++next;
     }
 }
 
