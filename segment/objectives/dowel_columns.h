@@ -13,26 +13,16 @@
 
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/objectives/objectives.h"
+#include "segment/raster/dexel_map.h"
 
 namespace qchopper {
 
-struct HeightRange {
-    double low = 0;
-    double high = 0;
-    bool operator==(const HeightRange&) const = default;
-};
-
-// The grid in plane coordinates (plane_frame.h) about `origin`: column (i, j) stands at (i, j) x spacing.
+// The lines in plane coordinates (plane_frame.h) about `origin`: (column, row) of the map is line (i, j), which stands
+// at (i, j) x spacing, less the first ones. Heights along the normal.
 struct SolidColumns {
     std::int32_t first_i = 0;
     std::int32_t first_j = 0;
-    std::int32_t count_i = 0;
-    std::int32_t count_j = 0;
-    std::vector<std::uint32_t> first;  // per column, row by row: in `solid`; and one more
-    std::vector<HeightRange> solid;    // heights along the normal between which the column is in material, ascending
-    std::size_t index(std::int32_t i, std::int32_t j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(count_i) + static_cast<std::size_t>(i);
-    }
+    DexelMap map;
 };
 
 // Precondition: a closed mesh. O(points + triangles + crossings of lines and triangles).
@@ -41,7 +31,7 @@ SolidColumns solid_columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, d
 struct DowelSite {
     std::int32_t i = 0;
     std::int32_t j = 0;
-    HeightRange offsets;  // of the planes across which a dowel fits
+    Dexel offsets;  // of the planes across which a dowel fits
 };
 
 // Row by row, ascending in i and in offsets.

@@ -23,29 +23,31 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
     const double reach = options.clearance() / options.spacing;
     const auto most = static_cast<std::int32_t>(std::floor(reach));
     const double depth = options.depth + options.wall;
-    std::vector<std::uint8_t> is_deep(columns.first.size(), 0);
-    for (std::size_t c = 0; c + 1 < columns.first.size(); ++c) {
-        for (std::uint32_t k = columns.first[c]; k < columns.first[c + 1]; ++k) {
-            const HeightRange r = columns.solid[k];
-            if (std::abs(r.low - cap_height) <= flush * depth && r.high - r.low >= depth) is_deep[c] = 1;
+    const DexelMap& map = columns.map;
+    std::vector<std::uint8_t> is_deep(map.columns * map.rows, 0);
+    for (std::size_t line = 0; line < is_deep.size(); ++line) {
+        for (const Dexel& d : map.at(line)) {
+            if (std::abs(d.low - cap_height) <= flush * depth && d.high - d.low >= depth) is_deep[line] = 1;
         }
     }
+    const auto count_i = static_cast<std::int32_t>(map.columns);
+    const auto count_j = static_cast<std::int32_t>(map.rows);
+    const auto is_deep_at = [&](std::int32_t i, std::int32_t j) {
+        if (i < 0 || j < 0 || i >= count_i || j >= count_j) return false;
+        return is_deep[static_cast<std::size_t>(j) * map.columns + static_cast<std::size_t>(i)] != 0;
+    };
     const auto fits = [&](std::int32_t i, std::int32_t j) {
         for (std::int32_t dj = -most; dj <= most; ++dj) {
             for (std::int32_t di = -most; di <= most; ++di) {
-                if (di * di + dj * dj > reach * reach) continue;
-                const std::int32_t ci = i + di;
-                const std::int32_t cj = j + dj;
-                if (ci < 0 || cj < 0 || ci >= columns.count_i || cj >= columns.count_j) return false;
-                if (is_deep[columns.index(ci, cj)] == 0) return false;
+                if (di * di + dj * dj <= reach * reach && !is_deep_at(i + di, j + dj)) return false;
             }
         }
         return true;
     };
     std::vector<OldJoint::Place> places;
-    for (std::int32_t j = 0; j < columns.count_j; ++j) {
-        for (std::int32_t i = 0; i < columns.count_i; ++i) {
-            if (is_deep[columns.index(i, j)] == 0 || !fits(i, j)) continue;
+    for (std::int32_t j = 0; j < count_j; ++j) {
+        for (std::int32_t i = 0; i < count_i; ++i) {
+            if (!is_deep_at(i, j) || !fits(i, j)) continue;
             const Point2 flat{(columns.first_i + i) * options.spacing, (columns.first_j + j) * options.spacing};
             places.push_back({flat, origin_on_cap + flat.x * frame.u + flat.y * frame.v});
         }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -39,14 +40,14 @@ TEST(Connector, ColumnsOfABallAreItsChords) {
     const Vec3 n = canonical({normalized({1, 2, 3}), 0}).normal;
     const SolidColumns columns = solid_columns(ball, n, {3, 4, 5}, 5);
     double volume = 0;
-    for (std::int32_t j = 0; j < columns.count_j; ++j) {
-        for (std::int32_t i = 0; i < columns.count_i; ++i) {
-            const std::size_t c = columns.index(i, j);
+    for (std::int32_t j = 0; j < static_cast<std::int32_t>(columns.map.rows); ++j) {
+        for (std::int32_t i = 0; i < static_cast<std::int32_t>(columns.map.columns); ++i) {
+            const auto found = columns.map.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
             const double square = 25.0 * (std::pow(i + columns.first_i, 2) + std::pow(j + columns.first_j, 2));
-            ASSERT_LE(columns.first[c + 1] - columns.first[c], 1U);
+            ASSERT_LE(found.size(), 1U);
             if (square > 45 * 45) continue;
-            ASSERT_EQ(columns.first[c + 1] - columns.first[c], 1U);
-            const HeightRange r = columns.solid[columns.first[c]];
+            ASSERT_EQ(found.size(), 1U);
+            const Dexel r = found.front();
             EXPECT_NEAR(r.high - r.low, 2 * std::sqrt(radius * radius - square), 0.5);
             volume += 25 * (r.high - r.low);
         }
@@ -59,7 +60,7 @@ TEST(Connector, ColumnsAlongEdgesAndFacesEnterAsOftenAsTheyLeave) {
         for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, canonical({normalized({1, 1, 0}), 0}).normal}) {
             const SolidColumns columns = solid_columns(mesh, n, mesh.points.front(), 0.37);
             double volume = 0;
-            for (const HeightRange& r : columns.solid) volume += 0.37 * 0.37 * (r.high - r.low);
+            for (const Dexel& r : columns.map.dexel) volume += 0.37 * 0.37 * (r.high - r.low);
             const double size = norm(bounds(mesh).size());
             EXPECT_NEAR(volume, volume_mm3(mesh), 0.02 * volume_mm3(mesh) + 0.01 * size * size * 0.37) << name;
         }
@@ -71,22 +72,21 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
     const ConnectorOptions dowel{ConnectorForm::spread, 4, 3, 1, 1.7};
     const Vec3 n = canonical({normalized({3, -1, 2}), 0}).normal;
     const SolidColumns columns = solid_columns(mesh, n, mesh.points.front(), dowel.spacing);
+    const auto count_i = static_cast<std::int32_t>(columns.map.columns);
+    const auto count_j = static_cast<std::int32_t>(columns.map.rows);
     const auto is_solid = [&](std::int32_t i, std::int32_t j, double low, double high) {
-        if (i < 0 || j < 0 || i >= columns.count_i || j >= columns.count_j) return false;
-        const std::size_t c = columns.index(i, j);
-        for (std::uint32_t k = columns.first[c]; k < columns.first[c + 1]; ++k) {
-            if (columns.solid[k].low <= low && columns.solid[k].high >= high) return true;
-        }
-        return false;
+        if (i < 0 || j < 0 || i >= count_i || j >= count_j) return false;
+        const auto solid = columns.map.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        return std::any_of(solid.begin(), solid.end(), [&](const Dexel& d) { return d.low <= low && d.high >= high; });
     };
-    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<HeightRange>> sites;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Dexel>> sites;
     for (const DowelSite& site : dowel_sites(columns, dowel)) sites[{site.i, site.j}].push_back(site.offsets);
     const Extent range = extent(mesh, n);
     std::size_t found = 0;
     for (int k = 1; k < 25; ++k) {
         const double o = range.low + range.size() * k / 25;
-        for (std::int32_t j = 0; j < columns.count_j; ++j) {
-            for (std::int32_t i = 0; i < columns.count_i; ++i) {
+        for (std::int32_t j = 0; j < count_j; ++j) {
+            for (std::int32_t i = 0; i < count_i; ++i) {
                 bool fits = true;
                 for (std::int32_t dj = -2; dj <= 2; ++dj) {
                     for (std::int32_t di = -2; di <= 2; ++di) {
@@ -95,7 +95,7 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
                     }
                 }
                 bool is_site = false;
-                for (const HeightRange& r : sites[{i + columns.first_i, j + columns.first_j}])
+                for (const Dexel& r : sites[{i + columns.first_i, j + columns.first_j}])
                     is_site = is_site || (r.low <= o && o <= r.high);
                 ASSERT_EQ(is_site, fits) << i << " " << j << " " << o;
                 found += fits ? 1 : 0;
