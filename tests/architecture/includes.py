@@ -8,6 +8,7 @@ faults(root) lists every violation, one line each, in the tree at `root`. The ta
 docs/developer/architecture.md describe it.
 """
 
+import functools
 import re
 from pathlib import Path
 
@@ -70,12 +71,18 @@ HEAVY = {
     "libhpdf": (r"hpdf\.h$", 1),
 }
 
+@functools.cache
+def heavy(name):
+    """The libraries of HEAVY to which an included header belongs."""
+    return {library for library, (pattern, _) in HEAVY.items() if re.match(pattern, name)}
+
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def includes(path):
-    """Every (line number, quote or bracket, name) that a file includes."""
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+def includes(text):
+    """Every (line number, quote or bracket, name) that the text of a file includes."""
+    for number, line in enumerate(text.splitlines(), 1):
         match = INCLUDE.match(line)
         if match:
             yield number, match.group(1), match.group(2)
@@ -102,6 +109,7 @@ def is_seen(name, view):
     return any(name.startswith(entry) if entry.endswith("/") else name == entry for entry in view)
 
 
+@functools.cache
 def why_not(source, target):
     """Why the file `source` must not include the header `target`, or nothing."""
     module, other = module_of(source), module_of(target)
@@ -131,10 +139,10 @@ class Tree:
         for module in MODULES:
             for path in sorted((self.root / module).rglob("*")):
                 if path.suffix in (".h", ".cpp"):
-                    self.files[path.relative_to(self.root).as_posix()] = list(includes(path))
+                    self.files[path.relative_to(self.root).as_posix()] = list(includes(path.read_text(encoding="utf-8")))
 
     def sees_cgal(self, name):
-        return any(re.match(HEAVY["CGAL"][0], target) for _, _, target in self.files.get(name, []))
+        return any("CGAL" in heavy(target) for _, _, target in self.files.get(name, []))
 
     def reached_from(self, name):
         """Every header of the project that a file includes, itself or through others."""
@@ -230,19 +238,22 @@ def reach_faults(tree):
 
 
 def heavy_faults(tree):
-    for library, (pattern, most) in HEAVY.items():
-        users = []
-        for name, lines in tree.files.items():
-            hits = [number for number, _, target in lines if re.match(pattern, target)]
-            if not hits:
-                continue
-            users.append(name)
+    users = {library: {} for library in HEAVY}  # each with its first line
+    for name, lines in tree.files.items():
+        for number, _, target in lines:
+            for library in heavy(target):
+                users[library].setdefault(name, number)
+    for library, (_, most) in HEAVY.items():
+        for name, number in users[library].items():
             if name.endswith(".h"):
-                yield f"{name}:{hits[0]}: a header must not include {library}: every file that includes the header would compile it too"
-        if len(users) > most:
-            yield f"{library} is seen by {len(users)} files, {most} are allowed: {', '.join(users)}"
+                yield f"{name}:{number}: a header must not include {library}: every file that includes the header would compile it too"
+        if len(users[library]) > most:
+            yield f"{library} is seen by {len(users[library])} files, {most} are allowed: {', '.join(users[library])}"
+
+
+def faults_in(tree):
+    return [*direction_faults(tree), *circle_faults(tree), *reach_faults(tree), *heavy_faults(tree)]
 
 
 def faults(root):
-    tree = Tree(root)
-    return [*direction_faults(tree), *circle_faults(tree), *reach_faults(tree), *heavy_faults(tree)]
+    return faults_in(Tree(root))

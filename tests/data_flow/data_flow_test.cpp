@@ -1,4 +1,4 @@
-// Walks scans through all rooms in process: scan, pieces, setup, job, ticket, hand-off over TCP to a simulated cell.
+// Walks scans through all modules in process: scan, pieces, setup, job, ticket, hand-off over TCP to a simulated cell.
 
 #include <gtest/gtest.h>
 
