@@ -1,4 +1,4 @@
-"""The README promises two commands; CI runs these two first, spelt the same, and then a part of scripts/check."""
+"""The README promises two commands; CI runs these two first, spelt the same, and then parts of scripts/check."""
 
 import os
 import re
@@ -22,11 +22,12 @@ class Readme(unittest.TestCase):
         setting = ("#", "set ", "cd ")
         run = [line for line in script if line.strip() and not line.startswith(setting)]
         self.assertEqual(len(two_commands()), 2)
-        self.assertEqual(run, [*two_commands(), "scripts/check tidy-new"])
+        self.assertEqual(run, [*two_commands(), "scripts/check age tidy-new"])
 
-    def test_the_part_that_ci_runs_is_one_of_scripts_check(self):
+    def test_the_parts_that_ci_runs_are_of_scripts_check(self):
         check = (ROOT / "scripts" / "check").read_text(encoding="utf-8")
-        self.assertIn("\npart_tidy-new() {\n", check)
+        for part in ("age", "tidy-new"):
+            self.assertIn(f"\npart_{part}() {{\n", check)
 
     def test_the_commands_are_files_that_can_be_run(self):
         for name in [command.split()[0] for command in two_commands()] + [".ci/run", "scripts/check"]:

@@ -61,6 +61,8 @@ void add_candidate_options(CLI::App* c, ProjectArguments& a) {
                   "a PLY of the scan in which surface that must not be cut is painted red or has the property no_cut");
 }
 
+// One statement per option, without a branch.
+// NOLINTNEXTLINE(readability-function-size)
 void add_project_options(CLI::App* c, ProjectArguments& a) {
     add_repair_choices(c, a);
     c->add_flag("--resolve-self-intersections", a.resolve_self_intersections,
