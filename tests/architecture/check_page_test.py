@@ -5,6 +5,7 @@ import importlib.machinery
 import importlib.util
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import unittest.mock
@@ -17,6 +18,7 @@ def script(name):
     """A script without .py, as a module."""
     loader = importlib.machinery.SourceFileLoader(name, str(ROOT / "scripts" / name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    sys.modules[name] = module  # where dataclasses look
     loader.exec_module(module)
     return module
 

@@ -22,7 +22,10 @@ TOP = re.compile(r"^\}.*$", re.MULTILINE)  # the end of a function or type
 RULES = {
     "block box": (
         {"cam/setup/setup.h"},
-        [re.compile(r"(?<=[\s{(,])- ?(?!foam\.|margins\.)[\w.>-]*\bspoil\b"), re.compile(r"\bblock(?:\.|->)size\b|(?:\.|->)block\(\)(?:\.|->)size\b")],
+        [
+            re.compile(r"(?<=[\s{(,])- ?(?!foam\.|margins\.)[\w.>-]*\bspoil\b"),
+            re.compile(r"\bblock(?:\.|->)size\b|(?:\.|->)block\(\)(?:\.|->)size\b"),
+        ],
     ),
     "tool axis": ({"cam/setup/setup.h"}, [re.compile(r"\brotate\([\w.>-]*piece_in_setup_?,")]),
     "degrees": (
