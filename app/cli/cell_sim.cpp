@@ -30,7 +30,7 @@ TcpAddress listen_address(const std::string& text) {
 CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& address) {
     CellSimOptions options;
     if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
-    options.listen_host = address.host;
+    options.host = address.host;
     options.port = address.port;
     options.drop_folder = arguments.drop;
     if (arguments.store) options.store_folder = *arguments.store;

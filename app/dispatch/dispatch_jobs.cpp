@@ -89,7 +89,7 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
     const JournalHistory before = history_of(journal.content().rows);
     for (const JournalJob& open : before.jobs) {
         if (!open.is_open()) continue;
-        const Decoded<WireTicket> ticket = decode_ticket(open.ticket);
+        const Decoded<WireTicket> ticket = decode<WireTicket>(open.ticket);
         if (!ticket.is_ok()) continue;
         const JournalHistory history = history_of(journal.content().rows);
         DispatchOptions adopted = options;

@@ -50,7 +50,7 @@ std::vector<JournalCell> cells_at(std::uint16_t cell_id, const std::string& endp
 std::string left_open(const JournalJob& job) {
     if (!job.may_have_started()) return {};
     const std::string name = "the job " + to_text(job.job_id) + " (" +
-                             printable(decode_ticket(job.ticket).value.file_name) + ") of an earlier dispatch";
+                             printable(decode<WireTicket>(job.ticket).value.file_name) + ") of an earlier dispatch";
     if (job.is_started) {
         return "T" + name.substr(1) + " has STARTED, and its end is not known: the cell may still be cutting foam.";
     }

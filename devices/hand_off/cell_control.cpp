@@ -6,7 +6,6 @@
 #include <chrono>
 #include <thread>
 
-#include "devices/hand_off/command_number.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/hand_off/operator_text.h"
 #include "devices/hand_off/random.h"

@@ -15,17 +15,13 @@
 #include "devices/hand_off/first_contact.h"
 #include "devices/hand_off/hand_off.h"
 #include "devices/hand_off/random.h"
+#include "devices/journal/journal.h"
 #include "devices/wire/device_error.h"
 
 namespace qchopper {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::uint64_t unix_ms() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
-}
 
 std::string lower(std::string text) {
     for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -209,14 +205,12 @@ class Dispatcher {
     // Ends early at a request to stop that the hand-off has not been passed yet.
     void wait(double until_s, bool stop_requested) const {
         constexpr double slice_s = 0.02;
-        while (now_s() < until_s && (stop_requested || !is_cancelled())) {
-            sleep(std::min(slice_s, until_s - now_s()));
-        }
+        while (now_s() < until_s && (stop_requested || !is_cancelled())) sleep(std::min(slice_s, until_s - now_s()));
     }
 
     JobOutcome outcome(const HandOff& state) {
         JobOutcome out;
-        out.start_outcome = state.start_outcome;
+        static_cast<HandOffEnd&>(out) = state;
         out.job_id = plan_.ticket.job_id;
         if (state.status && state.status->job_id == out.job_id) {
             out.job_state = state.status->job_state;
@@ -228,17 +222,11 @@ class Dispatcher {
             out.starts = state.result->starts;
             out.starts_known = true;
         }
-        out.elapsed_s = state.elapsed_s;
-        out.refusal = state.refusal;
-        out.cancelled = state.is_cancelled;
         out.milled_before = state.milled_before.has_value();
         out.milled_complete = out.milled_before && state.milled_before->result == JobResult::complete;
-        out.store_is_lost = state.store_is_lost;
         if (state.status) out.cell_id = state.status->cell_id;
         if (state.status) out.simulated = state.status->has(flag::simulated);
         out.took_s = now_s();
-        out.why = state.why;
-        out.to_do = state.to_do;
         out.log = log_;
         return out;
     }
@@ -283,16 +271,14 @@ HandOffPlan plan_of(const WireTicket& ticket, const DispatchOptions& options) {
 
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
                         const Context& context) {
-    TicketOrder order;
+    WireTicket order;
     order.job_id = new_job_id(options);
     order.created_ms = unix_ms();
     order.cell_id = options.cell_id;
-    order.simulated = options.want_simulated;
-    order.rehearse = options.rehearse;
+    order.made_for = options.want_simulated ? 1 : 0;
+    order.requirements = options.rehearse ? 1 : 0;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
-    order.part = ticket.about.part;
-    order.parts = ticket.about.parts;
     check_file(ticket, file);
     const HandOffPlan plan = plan_of(wire_ticket(ticket, order), options);
     JournalEvent created;

@@ -27,22 +27,27 @@ struct HandOffTimings {
     double leave_s = 2;           // from the request to stop to the end of the hand-off, whatever the cell does
 };
 
-// What the journal of the cell says of its memory and of the job.
-struct HandOffPast {
-    std::optional<SeenStore> store;  // as the cell showed it last
+// What the journal says of the memory of the cell, and of the last dispatcher that claimed it.
+struct CellPast {
+    std::optional<SeenStore> store;  // as the cell showed it last, or as it was accepted
     bool store_is_lost = false;      // and nobody has accepted the new one
     std::uint32_t epoch = 0;         // the highest one used in CLAIM
-    std::uint32_t grant = 0;         // of the last CLAIM before a START could be sent
-    // The same owner goes on while its lease may live; owner 0: draw a new one.
-    std::uint32_t owner = 0;
+    std::uint32_t grant = 0;         // of the last CLAIM that was granted
+    std::uint32_t owner = 0;         // of the last CLAIM
     std::uint32_t secret = 0;
-    std::uint32_t seq = 0;  // its last CMD_SEQ
-    // Of a job that is taken up.
-    bool is_stored = false;
-    bool start_may_have_arrived = false;
+    std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
+};
+
+// What is known of a job.
+struct JobPast {
+    bool is_stored = false;   // STORE may have arrived
+    bool start_sent = false;  // START may have arrived
     bool is_started = false;
     std::uint32_t start_boots = 0;  // BOOT_COUNT before its START
 };
+
+// The owner goes on while its lease may live; owner 0: draw a new one. The job is one that is taken up.
+struct HandOffPast : CellPast, JobPast {};
 
 // The time of a hand-off, in seconds from any moment; it never goes back. Empty: the clock of the computer.
 struct HandOffClock {

@@ -21,14 +21,14 @@ bool lacks_registers(const HandOffInput& failed) {
     return failed.end == BusEnd::exception && failed.exception <= 3;
 }
 
-template <class T, class Decode>
-HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOffInput::*member, Decode decode) {
+template <class T>
+HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOffInput::*member) {
     HandOffInput input;
     for (int tries = 0; tries < 3; ++tries) {
         const BusAnswer answer = bus.read_input(block.base, block.count);
         input = input_from(answer);
         if (!answer.is_ok()) return input;
-        const auto decoded = decode(answer.registers);
+        const auto decoded = decode<T>(answer.registers);
         if (decoded.is_ok()) {
             input.*member = decoded.value;
             return input;
@@ -56,15 +56,15 @@ HandOffInput input_from(const BusAnswer& answer) {
 }
 
 HandOffInput read_status_block(RegisterBus& bus) {
-    return read(bus, status_block, &HandOffInput::status, decode_status);
+    return read(bus, status_block, &HandOffInput::status);
 }
 
 HandOffInput read_result_block(RegisterBus& bus) {
-    return read(bus, result_block, &HandOffInput::result, decode_result);
+    return read(bus, result_block, &HandOffInput::result);
 }
 
 HandOffInput read_identity_block(RegisterBus& bus) {
-    return read(bus, identity_block, &HandOffInput::identity, decode_identity);
+    return read(bus, identity_block, &HandOffInput::identity);
 }
 
 std::optional<double> pause_before_next_contact(const HandOffInput& failed, int tries, double since_s) {

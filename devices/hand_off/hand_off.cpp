@@ -22,23 +22,15 @@ HandOffAction plain(Kind kind) {
     return action;
 }
 
-HandOffAction wait_until(double until_s) {
+namespace {
+
+// Not beyond the end of a hand-off that is to end.
+HandOffAction wait_for(const StepContext& context, double seconds) {
     HandOffAction action = plain(Kind::wait);
-    action.until_s = until_s;
+    action.until_s = context.now_s + seconds;
+    if (context.is_leaving()) action.until_s = std::min(action.until_s, context.h.leave_by_s);
     return action;
 }
-
-HandOffAction pause(StepContext& context) {
-    const HandOff& h = context.h;
-    constexpr double leaving_poll_s = 0.1;
-    const double poll_s = context.timings().poll_s;
-    double until_s = context.now_s + (context.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
-    if (context.is_leaving()) until_s = std::min(until_s, h.leave_by_s);
-    if (h.is_owner) until_s = std::min(until_s, h.heartbeat_s + context.timings().heartbeat_s);
-    return wait_until(until_s);
-}
-
-namespace {
 
 void keep_intent(StepContext& context) {
     const Command& command = context.h.command;
@@ -57,6 +49,15 @@ void keep_intent(StepContext& context) {
 
 }  // namespace
 
+HandOffAction pause(StepContext& context) {
+    const HandOff& h = context.h;
+    constexpr double leaving_poll_s = 0.1;
+    const double poll_s = context.timings().poll_s;
+    HandOffAction wait = wait_for(context, context.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
+    if (h.is_owner) wait.until_s = std::min(wait.until_s, h.heartbeat_s + context.timings().heartbeat_s);
+    return wait;
+}
+
 HandOffAction send(StepContext& context, CellCommand command) {
     HandOff& h = context.h;
     h.command.epoch = h.epoch;
@@ -73,46 +74,10 @@ HandOffAction send(StepContext& context, CellCommand command) {
     return action;
 }
 
-HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
-                     const std::string& to_do) {
-    context.h.start_outcome = start_outcome;
-    if (context.h.why.empty()) {
-        context.h.why = why;
-        context.h.to_do = to_do;
-    }
-    context.h.why += "; " + foam(context);
-    if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, start_outcome);
-    if (start_outcome == StartOutcome::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
-    if (context.h.is_cancelled && start_outcome == StartOutcome::not_started && context.h.claim_sent &&
-        !context.h.is_given_back) {
-        context.h.why += "; the cell did not confirm that it dropped the job";
-        context.h.to_do = "Nothing has to be done: the cell holds no valid START for it.";
-    }
-    context.h.step = HandOffStep::finished;
-    context.report(std::string(describe(start_outcome)) + ": " + context.h.why);
-    end_request(context, "the dispatcher ended before the cell answered");
-    keep_store(context);
-    context.keep(JournalKind::closed).start_outcome = start_outcome;
-    return plain(Kind::finish);
-}
-
-HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
-    if (context.h.contradicts_itself) return finish(context, StartOutcome::unknown, why, to_do);
-    if (context.h.is_started) return finish(context, StartOutcome::started, why, to_do);
-    if (context.may_have_started()) return finish(context, StartOutcome::unknown, why, to_do);
-    return finish(context, StartOutcome::not_started, why, to_do);
-}
-
-HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do) {
-    context.h.fault = fault;
-    return give_up(context, why, to_do);
-}
-
-HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do) {
-    context.set_reason(why, to_do);
-    if (context.h.is_stored) return enter(context, HandOffStep::cancel);
-    if (context.h.claim_sent) return enter(context, HandOffStep::release);
-    return give_up(context, why, to_do);
+HandOffAction send_new(StepContext& context, CellCommand command, const Uuid& job_id) {
+    context.h.command = Command{};
+    context.h.command.job_id = job_id;
+    return send(context, command);
 }
 
 HandOffAction fence(StepContext& context, const std::string& why) {
@@ -148,8 +113,7 @@ HandOffAction try_contact_again(StepContext& context) {
         const ContactFailure failure = contact_failure(context.in);
         return fail(context, failure.fault, failure.why, failure.to_do);
     }
-    const double until_s = context.now_s + *pause_s;
-    return wait_until(context.is_leaving() ? std::min(until_s, h.leave_by_s) : until_s);
+    return wait_for(context, *pause_s);
 }
 
 // After a refusal that does not concern the job: CANCEL and RELEASE as far as that is still possible.
@@ -190,16 +154,14 @@ HandOffAction on_lost(StepContext& context) {
                        "the job.");
     }
     const double pause_s = back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
-    if (context.is_leaving()) return wait_until(std::min(context.now_s + back_off_s[0], h.leave_by_s));
-    return wait_until(context.now_s + pause_s * jitter(context));
+    return wait_for(context, context.is_leaving() ? back_off_s[0] : pause_s * jitter(context));
 }
 
 HandOffAction on_exception(StepContext& context) {
     HandOff& h = context.h;
     if (is_busy(context.in) && ++h.busy_times <= max_busy_answers) {
         if (!h.deferred) h.deferred = h.last;
-        const double until_s = context.now_s + busy_pause_s;
-        return wait_until(context.is_leaving() ? std::min(until_s, h.leave_by_s) : until_s);
+        return wait_for(context, busy_pause_s);
     }
     h.deferred.reset();
     if (!h.status) return try_contact_again(context);
@@ -320,16 +282,10 @@ HandOffAction on_status(StepContext& context) {
         return wait_for_heartbeat(context);
     }
     if (h.waits_for_ack) return wait_for_ack(context);
-    switch (h.step) {
-        case HandOffStep::make_ready:
-            return make_idle(context);
-        case HandOffStep::deliver:
-            return send_file(context);
-        case HandOffStep::run:
-            return watch(context);
-        default:
-            return enter(context, h.step);
-    }
+    if (h.step == HandOffStep::make_ready) return make_idle(context);
+    if (h.step == HandOffStep::deliver) return send_file(context);
+    if (h.step == HandOffStep::run) return watch(context);
+    return enter(context, h.step);
 }
 
 HandOffAction after_answer(StepContext& context) {
@@ -359,8 +315,6 @@ HandOffAction after_answer(StepContext& context) {
     }
 }
 
-}  // namespace
-
 HandOffAction next_action(StepContext& context) {
     HandOff& h = context.h;
     if (!h.has_begun) {
@@ -369,11 +323,8 @@ HandOffAction next_action(StepContext& context) {
         h.epoch = past.epoch;
         h.seq = past.seq;
         h.store = h.kept_store = past.store;
-        h.is_stored = past.is_stored;
-        h.start_sent = past.start_may_have_arrived;
-        h.start_boots = past.start_boots;
         h.grant = past.grant;
-        h.is_started = past.is_started;
+        static_cast<JobPast&>(h) = past;
         if (!context.in.cancelled) return plain(Kind::read_status);
     }
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
@@ -418,6 +369,7 @@ HandOffAction next_action(StepContext& context) {
     return after_answer(context);
 }
 
+}  // namespace
 }  // namespace qchopper::hand_off
 
 namespace qchopper {
@@ -440,15 +392,6 @@ HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffI
     result.state = std::move(state);
     result.action = action;
     return result;
-}
-
-const char* name(HandOffStep step) {
-    constexpr const char* names[] = {
-        "check the cell", "stage the file",  "claim",   "ask before", "ask for the file", "make ready",
-        "write ticket",   "write signature", "store",   "deliver",    "verify",           "rehearse",
-        "prepare",        "start",           "run",     "ask after",  "clear result",     "reset",
-        "cancel",         "release",         "finished"};
-    return names[static_cast<std::size_t>(step)];
 }
 
 }  // namespace qchopper

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "devices/hand_off/command_number.h"
 #include "devices/hand_off/hand_off.h"
 #include "devices/hand_off/hand_off_context.h"
 #include "devices/hand_off/operator_text.h"
+#include "devices/hand_off/seen_store.h"
 
 namespace qchopper::hand_off {
 namespace {

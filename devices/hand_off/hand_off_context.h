@@ -53,12 +53,6 @@ constexpr int max_odd_answers = 10;    // RESULTs in a row that do not help
 constexpr int max_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
 constexpr int max_tokenless = 3;       // acknowledged PREPAREs without a token
 
-// The states of a job that has been started.
-constexpr bool has_started(JobState state) {
-    return state == JobState::running || state == JobState::interrupted || state == JobState::ended ||
-           state == JobState::aborted;
-}
-
 // hand_off_text.cpp
 // What is known of the foam now, as a clause: "the cell may be cutting foam".
 std::string foam(const StepContext& context);
@@ -74,22 +68,13 @@ std::string accept_memory(const StepContext& context);
 std::string usual_remedy(const StepContext& context, StartOutcome start_outcome);
 
 // hand_off.cpp
-HandOffAction next_action(StepContext& context);
 HandOffAction plain(Kind kind);
-HandOffAction wait_until(double until_s);
 // Until the next read of STATUS, or the next heartbeat if that is due first.
 HandOffAction pause(StepContext& context);
 // `command` with the members of h.command that were set before, under a new CMD_SEQ.
 HandOffAction send(StepContext& context, CellCommand command);
-HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
-                     const std::string& to_do = {});
-// Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED. The
-// reason is completed by what is known of the foam, and by what to do if `to_do` is empty.
-HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
-// Finishes with an error, before anything was started.
-HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
-// The job will not be started: CANCEL if the cell may hold it, RELEASE, and the end with this `why`.
-HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
+// The same with no member set but the job.
+HandOffAction send_new(StepContext& context, CellCommand command, const Uuid& job_id = {});
 // CLAIM with a new epoch, which makes every earlier command void, then QUERY. Gives up after max_fences.
 HandOffAction fence(StepContext& context, const std::string& why);
 
@@ -124,7 +109,16 @@ std::optional<HandOffAction> take_request(StepContext& context);
 // The request that is under way has ended. Does nothing without one.
 void end_request(StepContext& context, const std::string& answer);
 
-// hand_off_leave.cpp
+// hand_off_end.cpp
+HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
+                     const std::string& to_do = {});
+// Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED. The
+// reason is completed by what is known of the foam, and by what to do if `to_do` is empty.
+HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
+// Finishes with an error, before anything was started.
+HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
+// The job will not be started: CANCEL if the cell may hold it, RELEASE, and the end with this `why`.
+HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
 // The caller has asked to stop: the action that follows from that, or nothing if the hand-off ends already.
 std::optional<HandOffAction> leave(StepContext& context);
 // Asked to stop while the job runs: RELEASE, or Stop if the options order it.

@@ -23,9 +23,7 @@ std::optional<HandOffAction> take_request(StepContext& context) {
     }
     context.report(std::string("passing on ") + name(request) + " on request");
     h.request = request;
-    h.command = Command{};
-    if (request != CellCommand::clear) h.command.job_id = context.job_id();
-    return send(context, request);
+    return send_new(context, request, request == CellCommand::clear ? Uuid{} : context.job_id());
 }
 
 void end_request(StepContext& context, const std::string& answer) {

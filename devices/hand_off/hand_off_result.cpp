@@ -15,10 +15,6 @@ bool answers_our_query(const StepContext& context) {
            (result.job_id == context.job_id() || context.h.step == ask_file);
 }
 
-bool is_over(JobState state) {
-    return state == JobState::ended || state == JobState::aborted;
-}
-
 std::string describe(const ResultRecord& result) {
     return std::string(name(result.state)) + " (STARTS " + std::to_string(result.starts) + ")";
 }

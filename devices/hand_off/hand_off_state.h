@@ -72,8 +72,8 @@ struct HandOffAction {
     double until_s = 0;        // of wait
 };
 
-// The state. The first is HandOff{}.
-struct HandOff {
+// The state. The first is HandOff{}. start_sent: under the present epoch.
+struct HandOff : HandOffEnd, JobPast {
     HandOffStep step = HandOffStep::check_cell;
     HandOffAction last;  // the action of the turn before
     bool has_begun = false;
@@ -116,31 +116,20 @@ struct HandOff {
     bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
     bool is_owner = false;    // CLAIM was granted
     bool file_is_staged = false;
-    bool is_stored = false;         // STORE was sent: the cell may hold our job
-    bool start_sent = false;        // under the present epoch; the start may have happened
-    std::uint32_t start_boots = 0;  // BOOT_COUNT when START was sent first
-    bool is_excluded = false;       // QUERY after a CLAIM has shown that an adopted job has not started
+    bool is_excluded = false;  // QUERY after a CLAIM has shown that an adopted job has not started
     bool start_acknowledged = false;
-    bool is_started = false;                    // STATUS or RESULT has shown it
     bool contradicts_itself = false;            // the cell: the verdict is UNKNOWN
     bool has_pending = false;                   // PENDING was answered
     bool is_frozen = false;                     // and reported
-    bool is_cancelled = false;                  // the outcome is due to the request to stop
     bool is_given_back = false;                 // the cell has answered CANCEL or RELEASE
     double leave_by_s = -1;                     // once the caller has asked to stop: the latest end of the hand-off
     bool reset_sent = false;                    // at the end
     bool is_taken_over = false;                 // another dispatcher holds the lease
-    bool store_is_lost = false;                 // CELL_STORE_LOST
     CellCommand request = CellCommand::none;    // of another program; sent, and not yet answered
     std::optional<ResultRecord> milled_before;  // the last job of this file, if that is why it is not started
 
-    double elapsed_s = 0;                // of the job, from the last STATUS that shows it
     std::optional<ResultRecord> result;  // of a job that has started
-    StartOutcome start_outcome = StartOutcome::unknown;
-    AckResult refusal = AckResult::none;
-    std::optional<DeviceFault> fault;  // finished with an error before anything was started
-    std::string why;
-    std::string to_do;
+    std::optional<DeviceFault> fault;    // finished with an error before anything was started
 };
 
 // One turn of advance().

@@ -100,18 +100,15 @@ HandOffAction end_hand_off(StepContext& context) {
 // The cell has another job. Its dispatcher has lost the lease, because CLAIM was granted.
 HandOffAction clear_other_job(StepContext& context) {
     const Status& status = context.status();
-    context.h.command = Command{};
-    context.h.command.job_id = status.job_id;
-    if (status.job_state == JobState::ended || status.job_state == JobState::aborted ||
-        status.job_state == JobState::cancelled) {
+    if (is_over(status.job_state) || status.job_state == JobState::cancelled) {
         context.report("the cell still shows the end of job " + to_text(status.job_id) + " (" +
                        name(status.job_result) + "); it is cleared from STATUS, the cell keeps its record");
-        return send(context, CellCommand::clear_result);
+        return send_new(context, CellCommand::clear_result, status.job_id);
     }
     if (status.job_state == JobState::stored || status.job_state == JobState::prepared) {
         context.report("the cell holds job " + to_text(status.job_id) +
                        " of another dispatcher without lease; it is cancelled");
-        return send(context, CellCommand::cancel);
+        return send_new(context, CellCommand::cancel, status.job_id);
     }
     context.h.fault = DeviceFault::busy;
     return withdraw(context,
@@ -195,12 +192,10 @@ HandOffAction make_idle(StepContext& context) {
             return enter(context, write_ticket);
         case PackState::stopped:
         case PackState::complete:
-            context.h.command = Command{};
-            return send(context, CellCommand::reset);
+            return send_new(context, CellCommand::reset);
         case PackState::aborted:
             context.report("the machine is aborted; the operator at the cell must consent to clear it");
-            context.h.command = Command{};
-            return send(context, CellCommand::clear);
+            return send_new(context, CellCommand::clear);
         default:
             break;
     }
@@ -253,11 +248,9 @@ HandOffAction watch(StepContext& context) {
         if (context.is_leaving() || context.now_s - h.step_since_s <= context.timings().answer_s) return pause(context);
         return enter(context, ask_after);
     }
-    if (!shows_it_running || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
-        return enter(context, ask_after);
-    }
+    if (!shows_it_running || is_over(status.job_state)) return enter(context, ask_after);
     h.odd_answers = 0;
-    if (context.is_leaving() && !h.is_cancelled) return leave_running_job(context);
+    if (context.is_leaving() && !h.cancelled) return leave_running_job(context);
     constexpr double progress_period_s = 60;
     if (context.now_s - h.progress_s >= progress_period_s) {
         h.progress_s = context.now_s;
@@ -363,40 +356,3 @@ HandOffAction refused(StepContext& context, AckResult result) {
 }
 
 }  // namespace qchopper::hand_off
-
-namespace qchopper {
-
-const char* remedy(AckResult refusal) {
-    struct Remedy {
-        AckResult refusal;
-        const char* text;
-    };
-    constexpr const char* changed = "Something changed the job file on the way; dispatch it again.";
-    constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
-    constexpr const char* again = "Dispatch it again: that is a new job with a token of its own.";
-    constexpr const char* full_disk = "Free space on the disk of the cell.";
-    constexpr Remedy remedies[] = {
-        {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
-        {AckResult::file_missing, "Check that the drop folder is the one from which the cell fetches job files."},
-        {AckResult::hash_mismatch, changed},
-        {AckResult::file_size, changed},
-        {AckResult::envelope, other_cell},
-        {AckResult::stock_too_small, other_cell},
-        {AckResult::tool, other_cell},
-        {AckResult::store_full, full_disk},
-        {AckResult::store_io, full_disk},
-        {AckResult::ticket_field, other_cell},
-        {AckResult::token_bad, again},
-        {AckResult::token_expired, again},
-        {AckResult::rehearsal_required, "Pass --rehearse."},
-        {AckResult::safety_open, "Close the door and release the emergency stop, then dispatch again."},
-        {AckResult::local_control, "Set the panel of the cell to remote, then dispatch again."},
-        {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
-    };
-    for (const Remedy& row : remedies) {
-        if (row.refusal == refusal) return row.text;
-    }
-    return "";
-}
-
-}  // namespace qchopper

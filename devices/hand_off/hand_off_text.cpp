@@ -1,14 +1,11 @@
 // What the operator is told: whether foam is being cut, and what to do. O(1).
 
+#include "devices/hand_off/hand_off.h"
 #include "devices/hand_off/hand_off_context.h"
 #include "devices/hand_off/operator_text.h"
 
 namespace qchopper::hand_off {
 namespace {
-
-constexpr bool is_over(JobState state) {
-    return state == JobState::ended || state == JobState::aborted;
-}
 
 bool is_complete(const StepContext& context) {
     const HandOff& h = context.h;
@@ -51,17 +48,59 @@ std::string accept_memory(const StepContext& context) {
 }
 
 std::string usual_remedy(const StepContext& context, StartOutcome start_outcome) {
-    switch (start_outcome) {
-        case StartOutcome::not_started:
-            return "Look at the panel of the cell, mend the cause, and dispatch again.";
-        case StartOutcome::unknown:
-            return "The next dispatch asks the cell before it sends a job.";
-        case StartOutcome::started:
-            break;
+    if (start_outcome == StartOutcome::not_started) {
+        return "Look at the panel of the cell, mend the cause, and dispatch again.";
     }
+    if (start_outcome == StartOutcome::unknown) return "The next dispatch asks the cell before it sends a job.";
     if (is_complete(context)) return {};
     if (has_ended(context)) return "Look at the cell and at the piece before the next dispatch.";
     return "Look at the cell: " + cell_command(context, "status") + ". The next dispatch follows the job to its end.";
 }
 
 }  // namespace qchopper::hand_off
+
+namespace qchopper {
+
+const char* remedy(AckResult refusal) {
+    struct Remedy {
+        AckResult refusal;
+        const char* text;
+    };
+    constexpr const char* changed = "Something changed the job file on the way; dispatch it again.";
+    constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
+    constexpr const char* again = "Dispatch it again: that is a new job with a token of its own.";
+    constexpr const char* full_disk = "Free space on the disk of the cell.";
+    constexpr Remedy remedies[] = {
+        {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
+        {AckResult::file_missing, "Check that the drop folder is the one from which the cell fetches job files."},
+        {AckResult::hash_mismatch, changed},
+        {AckResult::file_size, changed},
+        {AckResult::envelope, other_cell},
+        {AckResult::stock_too_small, other_cell},
+        {AckResult::tool, other_cell},
+        {AckResult::store_full, full_disk},
+        {AckResult::store_io, full_disk},
+        {AckResult::ticket_field, other_cell},
+        {AckResult::token_bad, again},
+        {AckResult::token_expired, again},
+        {AckResult::rehearsal_required, "Pass --rehearse."},
+        {AckResult::safety_open, "Close the door and release the emergency stop, then dispatch again."},
+        {AckResult::local_control, "Set the panel of the cell to remote, then dispatch again."},
+        {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
+    };
+    for (const Remedy& row : remedies) {
+        if (row.refusal == refusal) return row.text;
+    }
+    return "";
+}
+
+const char* name(HandOffStep step) {
+    constexpr const char* names[] = {
+        "check the cell", "stage the file",  "claim",   "ask before", "ask for the file", "make ready",
+        "write ticket",   "write signature", "store",   "deliver",    "verify",           "rehearse",
+        "prepare",        "start",           "run",     "ask after",  "clear result",     "reset",
+        "cancel",         "release",         "finished"};
+    return names[static_cast<std::size_t>(step)];
+}
+
+}  // namespace qchopper

@@ -15,75 +15,47 @@ JournalJob* job_of(JournalHistory& history, const Uuid& id) {
     return found == history.jobs.rend() ? nullptr : &*found;
 }
 
+using enum JournalKind;
+
 void note_of_cell(JournalHistory& history, const JournalEvent& event) {
-    switch (event.kind) {
-        case JournalKind::identity:
-            history.store = event.store;
-            break;
-        case JournalKind::store_lost:
-            history.store_is_lost = true;
-            break;
-        case JournalKind::store_accepted:
-            history.store = event.store;
-            history.store_is_lost = false;
-            history.epoch = 0;
-            history.grant = 0;
-            history.lease_may_live = false;
-            for (JournalJob& job : history.jobs) {
-                job.is_settled = job.is_settled || job.is_open();
-                job.is_forgotten = true;
-            }
-            break;
-        case JournalKind::claim:
-            history.epoch = std::max(history.epoch, event.epoch);
-            history.lease_may_live = true;
-            history.owner = event.owner;
-            history.secret = event.secret;
-            history.seq = event.seq;
-            break;
-        case JournalKind::start_intent:
-            // START follows a CLAIM that was granted: a memory with a lower EPOCH_HELD is an older one.
-            if (history.store) history.store->epoch_held = std::max(history.store->epoch_held, event.epoch);
-            [[fallthrough]];
-        case JournalKind::command:
-            if (event.owner == history.owner) history.seq = std::max(history.seq, event.seq);
-            break;
-        case JournalKind::granted:
-            history.grant = event.grant;
-            break;
-        default:
-            break;
+    if (event.kind == identity || event.kind == store_accepted) history.store = event.store;
+    if (event.kind == store_lost) history.store_is_lost = true;
+    if (event.kind == store_accepted) {
+        history.store_is_lost = false;
+        history.epoch = history.grant = 0;
+        history.lease_may_live = false;
+        for (JournalJob& job : history.jobs) {
+            job.is_settled = job.is_settled || job.is_open();
+            job.is_forgotten = true;
+        }
     }
+    if (event.kind == claim) {
+        history.epoch = std::max(history.epoch, event.epoch);
+        history.lease_may_live = true;
+        history.owner = event.owner;
+        history.secret = event.secret;
+        history.seq = event.seq;
+    }
+    // START follows a CLAIM that was granted: a memory with a lower EPOCH_HELD is an older one.
+    if (event.kind == start_intent && history.store) {
+        history.store->epoch_held = std::max(history.store->epoch_held, event.epoch);
+    }
+    const bool has_number = event.kind == start_intent || event.kind == command;
+    if (has_number && event.owner == history.owner) history.seq = std::max(history.seq, event.seq);
+    if (event.kind == granted) history.grant = event.grant;
 }
 
 void note_of_job(JournalJob& job, const JournalEvent& event, std::uint32_t boots) {
-    switch (event.kind) {
-        case JournalKind::command:
-            job.is_stored = job.is_stored || event.command == CellCommand::store;
-            break;
-        case JournalKind::start_intent:
-            job.start_may_have_arrived = true;
-            job.start_boots = boots;
-            break;
-        case JournalKind::start_void:
-            job.start_may_have_arrived = false;
-            break;
-        case JournalKind::started:
-            job.is_started = true;
-            break;
-        case JournalKind::result:
-            job.has_ended = event.job_state == JobState::ended || event.job_state == JobState::aborted;
-            job.job_result = event.job_result;
-            break;
-        case JournalKind::resumed:
-            job.start_outcome.reset();
-            break;
-        case JournalKind::closed:
-            job.start_outcome = event.start_outcome;
-            break;
-        default:
-            break;
+    if (event.kind == command && event.command == CellCommand::store) job.is_stored = true;
+    if (event.kind == start_intent) job.start_boots = boots;
+    if (event.kind == start_intent || event.kind == start_void) job.start_sent = event.kind == start_intent;
+    if (event.kind == started) job.is_started = true;
+    if (event.kind == result) {
+        job.has_ended = is_over(event.job_state);
+        job.job_result = event.job_result;
     }
+    if (event.kind == resumed) job.start_outcome.reset();
+    if (event.kind == closed) job.start_outcome = event.start_outcome;
 }
 
 }  // namespace
@@ -96,28 +68,17 @@ const JournalJob* JournalHistory::last_start_of(const Sha256& file) const {
 }
 
 HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held) {
-    HandOffPast past;
-    past.store = history.store;
-    past.store_is_lost = history.store_is_lost;
-    past.epoch = history.epoch;
-    past.grant = history.grant;
-    if (history.lease_may_live || (owner_held != 0 && owner_held == history.owner)) {
-        past.owner = history.owner;
-        past.secret = history.secret;
-        past.seq = history.seq;
-    }
-    if (job == nullptr) return past;
-    past.is_stored = job->is_stored;
-    past.start_may_have_arrived = job->start_may_have_arrived;
-    past.is_started = job->is_started;
-    past.start_boots = job->start_boots;
+    HandOffPast past{history, {}};
+    if (job != nullptr) static_cast<JobPast&>(past) = *job;
+    const bool goes_on = history.lease_may_live || (owner_held != 0 && owner_held == history.owner);
+    if (!goes_on) past.owner = past.secret = past.seq = 0;
     return past;
 }
 
 std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket) {
     if (ticket.part <= 1) return {};
     for (const JournalJob& job : history.jobs) {
-        const Decoded<WireTicket> before = decode_ticket(job.ticket);
+        const Decoded<WireTicket> before = decode<WireTicket>(job.ticket);
         if (!job.is_complete() || !before.is_ok()) continue;
         const WireTicket& t = before.value;
         if (t.project_id == ticket.project_id && t.piece_no == ticket.piece_no && t.parts == ticket.parts &&
@@ -135,10 +96,10 @@ JournalHistory history_of(std::span<const JournalRow> rows) {
     for (const JournalRow& row : rows) {
         const JournalEvent& event = row.event;
         note_of_cell(history, event);
-        if (event.kind == JournalKind::claim) is_releasing = false;
-        if (event.kind == JournalKind::command && event.command == CellCommand::release) is_releasing = true;
-        if (event.kind == JournalKind::closed && is_releasing) history.lease_may_live = false;
-        if (event.kind == JournalKind::created) {
+        if (event.kind == claim) is_releasing = false;
+        if (event.kind == command && event.command == CellCommand::release) is_releasing = true;
+        if (event.kind == closed && is_releasing) history.lease_may_live = false;
+        if (event.kind == created) {
             JournalJob job;
             job.job_id = event.job_id;
             job.file_sha256 = event.file_sha256;

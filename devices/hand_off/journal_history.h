@@ -18,15 +18,11 @@
 
 namespace qchopper {
 
-struct JournalJob {
+struct JournalJob : JobPast {
     Uuid job_id{};
     Sha256 file_sha256{};
     std::vector<std::uint16_t> ticket;  // the block TICKET
-    bool is_stored = false;             // STORE may have arrived
-    bool start_may_have_arrived = false;
-    std::uint32_t start_boots = 0;  // BOOT_COUNT as last seen before its START
-    bool is_started = false;
-    bool has_ended = false;  // ended or aborted in the cell
+    bool has_ended = false;             // ended or aborted in the cell
     JobResult job_result = JobResult::none;
     std::optional<StartOutcome> start_outcome;  // of the last hand-off that came to its end
     bool is_settled = false;    // it was open when the cell lost its memory: what became of it is UNKNOWN
@@ -34,22 +30,16 @@ struct JournalJob {
 
     bool may_have_started() const {
         return is_started || is_settled || start_outcome == StartOutcome::unknown ||
-               (start_may_have_arrived && start_outcome != StartOutcome::not_started);
+               (start_sent && start_outcome != StartOutcome::not_started);
     }
     bool is_complete() const { return has_ended && job_result == JobResult::complete; }
     // Its hand-off did not come to an end: the cell is to be asked.
     bool is_open() const { return !has_ended && !is_settled && start_outcome != StartOutcome::not_started; }
 };
 
-struct JournalHistory {
-    std::optional<SeenStore> store;  // as last seen or accepted
-    bool store_is_lost = false;      // and not accepted since
-    std::uint32_t epoch = 0;         // the highest one used in CLAIM, for the store as it is now
-    std::uint32_t grant = 0;         // of the last CLAIM that was granted, for the store as it is now
-    bool lease_may_live = false;     // of owner and secret
-    std::uint32_t owner = 0;         // of the last CLAIM
-    std::uint32_t secret = 0;
-    std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
+// Epoch and grant are those for the store as it is now.
+struct JournalHistory : CellPast {
+    bool lease_may_live = false;  // of owner and secret
     std::vector<JournalJob> jobs;
 
     // The last job with this file that has started or may have; nullptr if none.

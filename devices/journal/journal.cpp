@@ -49,10 +49,10 @@ fs::path file_in(const fs::path& folder) {
                      "Free space on the disk and check the rights of the folder.");
 }
 
-std::string chained(const std::string& before, std::int64_t number, std::uint64_t unix_ms, const std::string& kind,
+std::string chained(const std::string& before, std::int64_t number, std::uint64_t time_ms, const std::string& kind,
                     const std::string& text) {
     const std::string row =
-        before + "\n" + std::to_string(number) + "\n" + std::to_string(unix_ms) + "\n" + kind + "\n" + text;
+        before + "\n" + std::to_string(number) + "\n" + std::to_string(time_ms) + "\n" + kind + "\n" + text;
     return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(row.data()), row.size()}));
 }
 
@@ -210,11 +210,6 @@ void make_tables(Database& database, const JournalCell& cell) {
     database.run("COMMIT");
 }
 
-std::uint64_t unix_ms() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
-}
-
 // For the owner only: the journal holds the secret of the lease.
 void make_folder(const fs::path& folder) {
     std::error_code error;
@@ -284,6 +279,11 @@ const fs::path& made(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::uint64_t unix_ms() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
 
 std::string to_text(const JournalCell& cell) {
     const std::string name = "cell " + std::to_string(cell.cell_id);

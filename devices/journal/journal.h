@@ -29,9 +29,12 @@ std::string to_text(const JournalCell& cell);
 // The name of the folder of its journal: "cell-7", "simulated-7-at-127.0.0.1_15020".
 std::string folder_name(const JournalCell& cell);
 
+// Milliseconds since 1970 by the clock of this PC.
+std::uint64_t unix_ms();
+
 struct JournalRow {
     std::int64_t number = 0;    // from 1, without gaps
-    std::uint64_t unix_ms = 0;  // by the clock of this PC; nothing is decided by it
+    std::uint64_t unix_ms = 0;  // nothing is decided by it
     JournalEvent event;
 };
 

@@ -3,34 +3,25 @@
 
 #include "devices/journal/journal_event.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
-#include <initializer_list>
-#include <iterator>
-#include <limits>
 #include <type_traits>
 
 #include "base/hex.h"
+#include "devices/wire/register_writer.h"
 
 namespace qchopper {
 namespace {
 
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return fault == std::errc() && end == text.data() + text.size() && text == std::to_string(number);
-}
+template <class Value>
+concept Number = std::is_integral_v<Value> || std::is_enum_v<Value>;
+template <Number Value>
+constexpr std::uint32_t largest = sizeof(Value) == 2 ? 0xFFFF : 0xFFFFFFFF;
+template <>
+constexpr std::uint32_t largest<StartOutcome> = static_cast<std::uint32_t>(StartOutcome::unknown);
 
-std::string written(std::uint32_t number) {
-    return std::to_string(number);
-}
-std::string written(std::uint16_t number) {
-    return std::to_string(number);
-}
-template <class Enum>
-requires std::is_enum_v<Enum> std::string written(Enum value) {
-    return std::to_string(static_cast<std::uint32_t>(value));
+std::string written(Number auto number) {
+    return std::to_string(static_cast<std::uint32_t>(number));
 }
 std::string written(const Uuid& id) {
     return to_hex(std::span<const std::uint8_t>(id));
@@ -39,33 +30,16 @@ std::string written(const Sha256& digest) {
     return to_hex(digest);
 }
 std::string written(const std::vector<std::uint16_t>& registers) {
-    std::vector<std::uint8_t> bytes;
-    for (const std::uint16_t value : registers) {
-        bytes.push_back(static_cast<std::uint8_t>(value >> 8U));
-        bytes.push_back(static_cast<std::uint8_t>(value & 0xFFU));
-    }
-    return to_hex(std::span<const std::uint8_t>(bytes));
+    return to_hex(std::span<const std::uint8_t>(bytes_of(registers)));
 }
 
-bool read(std::string_view text, std::uint32_t& number) {
-    return read_number(text, number);
-}
-bool read(std::string_view text, std::uint16_t& number) {
-    return read_number(text, number);
-}
-template <class Enum>
-requires std::is_enum_v<Enum>
-bool read(std::string_view text, Enum& value) {
+template <Number Value>
+bool read(std::string_view text, Value& value) {
     std::uint32_t number = 0;
-    if (!read_number(text, number) || number > std::numeric_limits<std::underlying_type_t<Enum>>::max()) return false;
-    value = static_cast<Enum>(number);
-    return true;
-}
-bool read(std::string_view text, StartOutcome& start_outcome) {
-    std::uint32_t number = 0;
-    if (!read_number(text, number) || number > static_cast<std::uint32_t>(StartOutcome::unknown)) return false;
-    start_outcome = static_cast<StartOutcome>(number);
-    return true;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc() || end != text.data() + text.size() || number > largest<Value>) return false;
+    value = static_cast<Value>(number);
+    return text == std::to_string(number);
 }
 bool read(std::string_view text, Uuid& id) {
     return read_hex(text, id);
@@ -78,10 +52,7 @@ bool read(std::string_view text, std::vector<std::uint16_t>& registers) {
     if (text.size() % 4 != 0 || text.size() > 4 * max_registers) return false;
     std::vector<std::uint8_t> bytes(text.size() / 2);
     if (!read_hex(text, bytes)) return false;
-    registers.clear();
-    for (std::size_t i = 0; i < bytes.size(); i += 2) {
-        registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
-    }
+    registers = RegisterWriter().bytes(bytes).registers();
     return true;
 }
 
@@ -91,15 +62,11 @@ struct FieldRow {
     bool (*read)(std::string_view, JournalEvent&);
 };
 
-template <auto at>
+// `path`: a member of the event, or a member of the event and one of that.
+template <auto... path>
 constexpr FieldRow field(const char* name) {
-    return {name, [](const JournalEvent& event) { return written(event.*at); },
-            [](std::string_view text, JournalEvent& event) { return read(text, event.*at); }};
-}
-template <auto at>
-constexpr FieldRow store_field(const char* name) {
-    return {name, [](const JournalEvent& event) { return written(event.store.*at); },
-            [](std::string_view text, JournalEvent& event) { return read(text, event.store.*at); }};
+    return {name, [](const JournalEvent& event) { return written((event.*....*path)); },
+            [](std::string_view text, JournalEvent& event) { return read(text, (event.*....*path)); }};
 }
 
 namespace f {
@@ -120,11 +87,11 @@ constexpr FieldRow state = field<&JournalEvent::job_state>("state");
 constexpr FieldRow result = field<&JournalEvent::job_result>("result");
 constexpr FieldRow starts = field<&JournalEvent::starts>("starts");
 constexpr FieldRow start_outcome = field<&JournalEvent::start_outcome>("verdict");
-constexpr FieldRow store = store_field<&SeenStore::store_id>("store");
-constexpr FieldRow version = store_field<&SeenStore::version>("version");
-constexpr FieldRow boots = store_field<&SeenStore::boot_count>("boots");
-constexpr FieldRow held = store_field<&SeenStore::epoch_held>("held");
-constexpr FieldRow total = store_field<&SeenStore::starts_total>("total");
+constexpr FieldRow store = field<&JournalEvent::store, &SeenStore::store_id>("store");
+constexpr FieldRow version = field<&JournalEvent::store, &SeenStore::version>("version");
+constexpr FieldRow boots = field<&JournalEvent::store, &SeenStore::boot_count>("boots");
+constexpr FieldRow held = field<&JournalEvent::store, &SeenStore::epoch_held>("held");
+constexpr FieldRow total = field<&JournalEvent::store, &SeenStore::starts_total>("total");
 }  // namespace f
 
 struct KindRow {

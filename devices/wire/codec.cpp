@@ -4,7 +4,7 @@
 #include "devices/wire/codec.h"
 
 #include <cassert>
-#include <utility>
+#include <type_traits>
 
 #include "devices/wire/layout.h"
 
@@ -42,8 +42,10 @@ bool has(FieldRole role) {
 }
 
 template <class T>
-BlockFault fault_of(const Block& block, std::span<const std::uint16_t> registers) {
-    if (registers.size() != block.count) return BlockFault::length;
+BlockFault fault_of(std::span<const std::uint16_t> registers) {
+    const Field& last = rows_of<T>().back().field;
+    const int count = last.address + last.count - rows_of<T>().front().field.address;
+    if (registers.size() != static_cast<std::size_t>(count)) return BlockFault::length;
     if (is_all_zero(registers)) return BlockFault::empty;
     const auto at = [&](FieldRole role) { return registers[offset_of<T>(role)]; };
     if (has<T>(FieldRole::magic) && at(FieldRole::magic) != cell_magic) return BlockFault::magic;
@@ -54,42 +56,12 @@ BlockFault fault_of(const Block& block, std::span<const std::uint16_t> registers
                                                                                                      : BlockFault::crc;
 }
 
-template <class T>
-Registers encoded(const T& value) {
-    const std::span<const LayoutRow<T>> rows = rows_of<T>();
-    RegisterWriter writer;
-    for (const LayoutRow<T>& row : rows) {
-        assert(writer.registers().size() == static_cast<std::size_t>(row.field.address - rows.front().field.address));
-        row.write(value, row.field, writer);
-    }
-    return writer.registers();
-}
-
-template <class T>
-T read_values(std::span<const std::uint16_t> registers) {
-    T value;
-    RegisterReader reader(registers);
-    for (const LayoutRow<T>& row : rows_of<T>()) row.read(value, row.field, reader);
-    return value;
-}
-
-template <class T>
-Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> registers) {
-    const BlockFault fault = fault_of<T>(block, registers);
-    if (fault != BlockFault::none) return {fault, {}};
-    return {BlockFault::none, read_values<T>(registers)};
-}
-
-template <class T>
-std::optional<std::uint16_t> used_reserved(std::span<const std::uint16_t> registers) {
-    const std::span<const LayoutRow<T>> rows = rows_of<T>();
-    for (const LayoutRow<T>& row : rows) {
-        if (row.role != FieldRole::reserved) continue;
-        for (std::uint16_t at = row.field.address; at < row.field.address + row.field.count; ++at) {
-            if (registers[at - rows.front().field.address] != 0) return at;
-        }
-    }
-    return std::nullopt;
+// As many registers as its LEN says.
+BlockFault fault_of_chunk(std::span<const std::uint16_t> registers) {
+    constexpr std::size_t place_of_length = 2;
+    const std::size_t length = registers.size() <= chunk_head ? 0U : registers[place_of_length];
+    const bool is_right = length >= 1 && length <= max_chunk_bytes && registers.size() == chunk_head + (length + 1) / 2;
+    return is_right ? BlockFault::none : BlockFault::length;
 }
 
 }  // namespace
@@ -105,71 +77,64 @@ const char* describe(BlockFault fault) {
     return texts[static_cast<std::size_t>(fault)];
 }
 
-Registers encode(const Status& status) {
-    return encoded(status);
-}
-Decoded<Status> decode_status(std::span<const std::uint16_t> block) {
-    return decoded<Status>(status_block, block);
-}
-
-Registers encode(const ResultRecord& result) {
-    return encoded(result);
-}
-Decoded<ResultRecord> decode_result(std::span<const std::uint16_t> block) {
-    return decoded<ResultRecord>(result_block, block);
+template <class T>
+Registers encode(const T& value) {
+    const std::span<const LayoutRow<T>> rows = rows_of<T>();
+    RegisterWriter writer;
+    for (const LayoutRow<T>& row : rows) {
+        assert(writer.registers().size() == static_cast<std::size_t>(row.field.address - rows.front().field.address));
+        row.write(value, row.field, writer);
+    }
+    return writer.registers();
 }
 
-Registers encode(const Identity& identity) {
-    return encoded(identity);
-}
-Decoded<Identity> decode_identity(std::span<const std::uint16_t> block) {
-    return decoded<Identity>(identity_block, block);
+template <class T>
+Decoded<T> decode(std::span<const std::uint16_t> block) {
+    Decoded<T> decoded;
+    if constexpr (std::is_same_v<T, Chunk>) {
+        decoded.fault = fault_of_chunk(block);
+    } else {
+        decoded.fault = fault_of<T>(block);
+    }
+    RegisterReader reader(block);
+    for (const LayoutRow<T>& row : rows_of<T>()) {
+        if (decoded.is_ok()) row.read(decoded.value, row.field, reader);
+    }
+    return decoded;
 }
 
-Registers encode(const Command& command) {
-    return encoded(command);
+template <class T>
+std::optional<std::uint16_t> used_reserved(std::span<const std::uint16_t> block) {
+    const std::span<const LayoutRow<T>> rows = rows_of<T>();
+    for (const LayoutRow<T>& row : rows) {
+        if (row.role != FieldRole::reserved) continue;
+        for (std::uint16_t at = row.field.address; at < row.field.address + row.field.count; ++at) {
+            if (block[at - rows.front().field.address] != 0) return at;
+        }
+    }
+    return std::nullopt;
 }
-Decoded<Command> decode_command(std::span<const std::uint16_t> block) {
-    return decoded<Command>(command_block, block);
-}
-std::optional<std::uint16_t> used_reserved_of_command(std::span<const std::uint16_t> block) {
-    assert(block.size() == command_block.count);
-    return used_reserved<Command>(block);
-}
-std::optional<std::uint16_t> used_reserved_of_ticket(std::span<const std::uint16_t> block) {
-    assert(block.size() == ticket_block.count);
-    return used_reserved<WireTicket>(block);
-}
+
+template Registers encode(const Status&);
+template Registers encode(const ResultRecord&);
+template Registers encode(const Identity&);
+template Registers encode(const Command&);
+template Registers encode(const WireTicket&);
+template Registers encode(const Heartbeat&);
+template Registers encode(const Chunk&);
+template Decoded<Status> decode(std::span<const std::uint16_t>);
+template Decoded<ResultRecord> decode(std::span<const std::uint16_t>);
+template Decoded<Identity> decode(std::span<const std::uint16_t>);
+template Decoded<Command> decode(std::span<const std::uint16_t>);
+template Decoded<WireTicket> decode(std::span<const std::uint16_t>);
+template Decoded<Heartbeat> decode(std::span<const std::uint16_t>);
+template Decoded<Chunk> decode(std::span<const std::uint16_t>);
+template std::optional<std::uint16_t> used_reserved<Command>(std::span<const std::uint16_t>);
+template std::optional<std::uint16_t> used_reserved<WireTicket>(std::span<const std::uint16_t>);
+
 std::uint32_t command_crc(std::span<const std::uint16_t> block) {
     assert(block.size() == command_block.count);
     return crc_of<Command>(block);
-}
-
-Registers encode(const WireTicket& ticket) {
-    return encoded(ticket);
-}
-Decoded<WireTicket> decode_ticket(std::span<const std::uint16_t> block) {
-    return decoded<WireTicket>(ticket_block, block);
-}
-
-Registers encode(const Heartbeat& heartbeat) {
-    return encoded(heartbeat);
-}
-Decoded<Heartbeat> decode_heartbeat(std::span<const std::uint16_t> block) {
-    return decoded<Heartbeat>(heartbeat_block, block);
-}
-
-Registers encode(const Chunk& chunk) {
-    return encoded(chunk);
-}
-Decoded<Chunk> decode_chunk(std::span<const std::uint16_t> block) {
-    if (block.size() <= chunk_head) return {BlockFault::length, {}};
-    Chunk chunk = read_values<Chunk>(block);
-    const std::size_t length = chunk.data.size();
-    if (length < 1 || length > max_chunk_bytes || block.size() != chunk_head + (length + 1) / 2) {
-        return {BlockFault::length, {}};
-    }
-    return {BlockFault::none, std::move(chunk)};
 }
 
 std::uint32_t chunk_crc(std::uint32_t epoch, std::uint32_t owner, const Uuid& job_id, std::uint32_t offset,

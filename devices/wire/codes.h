@@ -30,6 +30,14 @@ enum class JobState : std::uint16_t {
     cancelled = 7
 };
 
+// A job that has been started never leaves these states.
+constexpr bool has_started(JobState state) {
+    return state >= JobState::running && state <= JobState::aborted;
+}
+constexpr bool is_over(JobState state) {
+    return state == JobState::ended || state == JobState::aborted;
+}
+
 enum class JobResult : std::uint16_t {
     none = 0,
     complete = 1,

@@ -33,20 +33,6 @@ struct LayoutRow {
 // The table of the block of a T; defined in registers.cpp.
 template <class T>
 std::span<const LayoutRow<T>> rows_of();
-template <>
-std::span<const LayoutRow<Status>> rows_of();
-template <>
-std::span<const LayoutRow<ResultRecord>> rows_of();
-template <>
-std::span<const LayoutRow<Identity>> rows_of();
-template <>
-std::span<const LayoutRow<Command>> rows_of();
-template <>
-std::span<const LayoutRow<WireTicket>> rows_of();
-template <>
-std::span<const LayoutRow<Chunk>> rows_of();
-template <>
-std::span<const LayoutRow<Heartbeat>> rows_of();
 
 namespace layout {
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <tuple>
 
 #include "devices/wire/layout.h"
 
@@ -195,6 +196,13 @@ constexpr LayoutRow<Heartbeat> heartbeat_rows[] = {
     bound<&Heartbeat::counter>({504, 1, u16, "COUNTER", "any, then it must change"}),
 };
 
+template <class... T>
+constexpr std::tuple<std::span<const LayoutRow<T>>...> tables_of(std::span<const LayoutRow<T>>... rows) {
+    return {rows...};
+}
+constexpr std::tuple tables = tables_of<Status, ResultRecord, Identity, Command, WireTicket, Chunk, Heartbeat>(
+    status_rows, result_rows, identity_rows, command_rows, ticket_rows, chunk_rows, heartbeat_rows);
+
 constexpr std::array status_fields = fields_of(status_rows);
 constexpr std::array result_fields = fields_of(result_rows);
 constexpr std::array identity_fields = fields_of(identity_rows);
@@ -226,34 +234,17 @@ constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signa
 constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, chunk_fields, "a slice of the job file"};
 constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, heartbeat_fields, "keeps the lease"};
 
-template <>
-std::span<const LayoutRow<Status>> rows_of() {
-    return status_rows;
+template <class T>
+std::span<const LayoutRow<T>> rows_of() {
+    return std::get<std::span<const LayoutRow<T>>>(tables);
 }
-template <>
-std::span<const LayoutRow<ResultRecord>> rows_of() {
-    return result_rows;
-}
-template <>
-std::span<const LayoutRow<Identity>> rows_of() {
-    return identity_rows;
-}
-template <>
-std::span<const LayoutRow<Command>> rows_of() {
-    return command_rows;
-}
-template <>
-std::span<const LayoutRow<WireTicket>> rows_of() {
-    return ticket_rows;
-}
-template <>
-std::span<const LayoutRow<Chunk>> rows_of() {
-    return chunk_rows;
-}
-template <>
-std::span<const LayoutRow<Heartbeat>> rows_of() {
-    return heartbeat_rows;
-}
+template std::span<const LayoutRow<Status>> rows_of();
+template std::span<const LayoutRow<ResultRecord>> rows_of();
+template std::span<const LayoutRow<Identity>> rows_of();
+template std::span<const LayoutRow<Command>> rows_of();
+template std::span<const LayoutRow<WireTicket>> rows_of();
+template std::span<const LayoutRow<Chunk>> rows_of();
+template std::span<const LayoutRow<Heartbeat>> rows_of();
 
 std::span<const Block* const> all_blocks() {
     static constexpr std::array<const Block*, 8> blocks{&status_block,  &result_block,   &identity_block,

@@ -40,16 +40,14 @@ std::uint32_t thousandths(const JobTicket& ticket, double length, const char* wh
 
 }  // namespace
 
-WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order) {
+WireTicket wire_ticket(const JobTicket& ticket, const WireTicket& order) {
     if (!is_portable_name(ticket.file_name)) {
         refuse(ticket, "'" + ticket.file_name +
                            "' is not a file name that a cell accepts (1 to 32 of A-Z a-z 0-9 . _ -, no dot in front)");
     }
-    WireTicket t;
-    t.job_id = order.job_id;
+    WireTicket t = order;
     t.file_sha256 = ticket.file_sha256;
     t.file_size = ticket.file_size;
-    t.transfer = order.transfer;
     t.file_name = ticket.file_name;
     t.box_min = hundredths(ticket, ticket.about.box.min, "the box of the piece");
     t.box_max = hundredths(ticket, ticket.about.box.max, "the box of the piece");
@@ -64,13 +62,8 @@ WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order) {
     t.piece_no = ticket.about.piece_no;
     t.piece_count = ticket.about.piece_count;
     t.project_id = ticket.about.project_id;
-    t.created_ms = order.created_ms;
-    t.on_link_loss = order.on_link_loss;
-    t.requirements = order.rehearse ? 1 : 0;
-    t.part = order.part;
-    t.parts = order.parts;
-    t.cell_id = order.cell_id;
-    t.made_for = order.simulated ? 1 : 0;
+    t.part = ticket.about.part;
+    t.parts = ticket.about.parts;
     return t;
 }
 

@@ -4,6 +4,7 @@
 #include "sim/cell/cell_sim.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -16,7 +17,6 @@
 #include "sim/cell/modbus_pdu.h"
 #include "sim/cell/modbus_server.h"
 #include "sim/cell/panel.h"
-#include "sim/cell/sim_clock.h"
 #include "sim/cell/store.h"
 
 namespace qchopper {
@@ -24,6 +24,40 @@ namespace {
 
 constexpr std::int64_t off_ms = 1000;       // after a power cut by a fault
 constexpr std::int64_t clock_step_ms = 50;  // by which a virtual clock goes on at most
+
+// The clock of the computer, or one that goes on only when it is told to. It never goes back, also where it is changed
+// from one kind to the other.
+class SimClock {
+ public:
+    CellTime now() const {
+        if (is_virtual_) return shown_;
+        const CellTime real = read();
+        return {real.steady_ms + ahead_ms_, real.unix_ms + static_cast<std::uint64_t>(ahead_ms_)};
+    }
+    bool is_virtual() const { return is_virtual_; }
+    void set_virtual(bool is_virtual) {
+        shown_ = now();
+        is_virtual_ = is_virtual;
+        ahead_ms_ = shown_.steady_ms - read().steady_ms;
+    }
+    // Precondition: the clock is virtual.
+    void pass(std::int64_t ms) {
+        shown_.steady_ms += ms;
+        shown_.unix_ms += static_cast<std::uint64_t>(ms);
+    }
+
+ private:
+    static CellTime read() {
+        using namespace std::chrono;
+        const auto steady = duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+        const auto unix_time = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+        return {steady, static_cast<std::uint64_t>(unix_time)};
+    }
+
+    bool is_virtual_ = false;
+    CellTime shown_;             // of the virtual clock
+    std::int64_t ahead_ms_ = 0;  // of the computer's clock
+};
 
 // Where the answer of a person is delivered. Outlives the cell, because the answer may come after its end.
 struct Mailbox {
@@ -275,9 +309,7 @@ void CellSim::start() {
         if (!p.is_off) consent_given(p.cell, number, yes, p.clock.now(), p.cell_hooks);
     };
     ModbusServerOptions listens;
-    listens.host = p.options.listen_host;
-    listens.port = p.options.port;
-    listens.allow = p.options.allow;
+    static_cast<ListenAt&>(listens) = p.options;
     listens.deliver = [&p](Bytes frame) { return p.send(std::move(frame)); };
     p.server = std::make_unique<ModbusServer>(
         listens, [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); },

@@ -10,20 +10,17 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "devices/wire/codec.h"
 #include "sim/cell/machine.h"
+#include "sim/cell/modbus_listener.h"
 #include "sim/cell/script.h"
 
 namespace qchopper {
 
-struct CellSimOptions {
-    std::string listen_host = "127.0.0.1";  // any other than loopback needs an allow-list
-    std::uint16_t port = 0;                 // 0: a free one, see CellSim::port()
-    std::vector<std::string> allow;         // numeric addresses of peers
-    std::filesystem::path drop_folder;      // where job files arrive; empty: only chunks
-    std::filesystem::path store_folder;     // of a memory that outlives the program; empty: a temporary one
+struct CellSimOptions : ListenAt {
+    std::filesystem::path drop_folder;   // where job files arrive; empty: only chunks
+    std::filesystem::path store_folder;  // of a memory that outlives the program; empty: a temporary one
     std::uint64_t max_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
     // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may

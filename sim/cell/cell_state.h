@@ -95,6 +95,12 @@ struct SaveMarks {
     bool operator==(const SaveMarks&) const = default;
 };
 
+// What a command is answered.
+struct CommandAnswer {
+    AckResult result = AckResult::ok;
+    std::uint32_t detail = 0;  // ACK_DETAIL
+};
+
 // The last command of one sender and its result.
 struct Acknowledgement {
     std::uint32_t owner = 0;
@@ -130,7 +136,7 @@ struct CellJob {
     bool cut_short = false;  // by the command Complete
     bool is_active() const { return state == JobState::running || state == JobState::interrupted; }
     bool is_waiting() const { return state == JobState::stored || state == JobState::prepared; }
-    bool is_finished() const { return state == JobState::ended || state == JobState::aborted; }
+    bool is_finished() const { return is_over(state); }
 };
 
 // A command that was answered PENDING, and what it waits for.

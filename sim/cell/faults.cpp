@@ -49,17 +49,6 @@ constexpr NamedFault fault_rows[] = {
 };
 static_assert(std::size(fault_rows) == static_cast<std::size_t>(Fault::count));
 
-ArmedFault* find(Faults& faults, Fault which) {
-    const auto found = std::find_if(faults.armed.begin(), faults.armed.end(),
-                                    [&](const ArmedFault& one) { return one.fault == which; });
-    return found == faults.armed.end() ? nullptr : &*found;
-}
-
-void use_up(Faults& faults, ArmedFault& one) {
-    if (one.times == 0 || --one.times > 0) return;
-    faults.armed.erase(faults.armed.begin() + (&one - faults.armed.data()));
-}
-
 // A place in 0..end - 1: `number`, or a random one if it is below 0. Precondition: end > 0.
 std::size_t place(Faults& faults, std::int64_t number, std::size_t end) {
     const std::uint64_t at = number < 0 ? next_random(faults.random) : static_cast<std::uint64_t>(number);
@@ -89,24 +78,21 @@ std::span<const NamedFault> all_faults() {
 }
 
 const NamedFault* fault_named(std::string_view name) {
-    const auto* const found = std::find_if(std::begin(fault_rows), std::end(fault_rows),
-                                           [&](const NamedFault& row) { return row.name == name; });
+    const auto* const found = std::ranges::find(fault_rows, name, &NamedFault::name);
     return found == std::end(fault_rows) ? nullptr : found;
 }
 
 std::optional<std::int64_t> armed(const Faults& faults, Fault which) {
-    for (const ArmedFault& one : faults.armed) {
-        if (one.fault == which) return one.number;
-    }
-    return std::nullopt;
+    const auto found = std::ranges::find(faults.armed, which, &ArmedFault::fault);
+    return found == faults.armed.end() ? std::nullopt : std::optional(found->number);
 }
 
 std::optional<std::int64_t> take(Faults& faults, Fault which) {
-    ArmedFault* const one = find(faults, which);
-    if (one == nullptr) return std::nullopt;
+    const auto one = std::ranges::find(faults.armed, which, &ArmedFault::fault);
+    if (one == faults.armed.end()) return std::nullopt;
     if (one->per_thousand < 1000 && next_random(faults.random) % 1000 >= one->per_thousand) return std::nullopt;
     const std::int64_t number = one->number;
-    use_up(faults, *one);
+    if (one->times != 0 && --one->times == 0) faults.armed.erase(one);
     return number;
 }
 

@@ -101,7 +101,7 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
 }
 
 void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now) {
-    const Decoded<Heartbeat> heartbeat = decode_heartbeat(block);
+    const Decoded<Heartbeat> heartbeat = decode<Heartbeat>(block);
     if (!heartbeat.is_ok() || !cell::holds_lease(cell, heartbeat.value.owner, heartbeat.value.epoch)) return;
     Lease& lease = *cell.lease;
     if (now.steady_ms >= lease.until_ms || lease.counter == heartbeat.value.counter) return;

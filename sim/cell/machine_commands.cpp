@@ -16,10 +16,8 @@ namespace qchopper {
 namespace cell {
 namespace {
 
-struct Answer {
-    AckResult result = AckResult::ok;
-    std::uint32_t detail = 0;
-};
+using Answer = CommandAnswer;
+using enum AckResult;
 
 constexpr Uuid any_job = [] {
     Uuid ones{};
@@ -34,8 +32,8 @@ void count_bad_frame(CellState& cell, AckResult reason, const CellHooks& hooks) 
 }
 
 AckResult reason_of(BlockFault fault) {
-    if (fault == BlockFault::magic) return AckResult::bad_magic;
-    return fault == BlockFault::version ? AckResult::bad_version : AckResult::bad_crc;
+    if (fault == BlockFault::magic) return bad_magic;
+    return fault == BlockFault::version ? bad_version : bad_crc;
 }
 
 bool is_known(CellCommand command) {
@@ -57,60 +55,63 @@ bool is_refused(const CellState& cell, CellCommand command) {
 
 // What the state of the machine and its surroundings refuse; OK if nothing.
 AckResult refused_here(const CellState& cell, CellCommand command) {
-    if (cell.surroundings.local_control) return AckResult::local_control;
-    if (is_refused(cell, command)) return AckResult::wrong_state;
+    if (cell.surroundings.local_control) return local_control;
+    if (is_refused(cell, command)) return wrong_state;
     const bool moves_later = command == CellCommand::prepare || command == CellCommand::start ||
                              command == CellCommand::unhold || command == CellCommand::unsuspend ||
                              command == CellCommand::clear;
-    return moves_later && !cell.surroundings.is_safe() ? AckResult::safety_open : AckResult::ok;
+    return moves_later && !cell.surroundings.is_safe() ? safety_open : ok;
 }
 
 // The result for a job that is not the current one.
 AckResult not_current(const CellState& cell, const Uuid& id) {
     const auto known = cell.memory.jobs.find(id);
-    if (known == cell.memory.jobs.end())
-        return cell.job.state == JobState::none ? AckResult::unknown_job : AckResult::wrong_job;
-    return known->second.state == JobState::cancelled ? AckResult::cancelled : AckResult::already_finished;
+    if (known == cell.memory.jobs.end()) return cell.job.state == JobState::none ? unknown_job : wrong_job;
+    return known->second.state == JobState::cancelled ? cancelled : already_finished;
 }
 
 Answer wait_for(CellState& cell, const Command& command, Pending::Waits waits, CellTime now,
                 const std::string& question) {
-    Pending pending{++cell.pending_count, waits, command.command, command.owner, command.seq, question, 0};
-    pending.due_ms = now.steady_ms + 5 * cell.limits.acting_ms;
+    Pending next{++cell.pending_count, waits, command.command, command.owner, command.seq, question, 0};
+    next.due_ms = now.steady_ms + 5 * cell.limits.acting_ms;
     // The same command again does not ask a second time: only the acknowledgement to complete is another.
     if (cell.pending && cell.pending->command == command.command) {
-        pending.number = cell.pending->number;
-        pending.due_ms = cell.pending->due_ms;
+        next.number = cell.pending->number;
+        next.due_ms = cell.pending->due_ms;
     }
-    cell.pending = pending;
-    return {AckResult::pending, 0};
+    cell.pending = next;
+    return {pending};
+}
+
+// False: it could not be written, and the memory is as before.
+bool replace_memory(CellState& cell, CellMemory next, const CellHooks& hooks) {
+    const bool is_saved = save(cell, next, hooks);
+    if (is_saved) cell.memory = std::move(next);
+    return is_saved;
 }
 
 Answer claim(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
-    if (command.epoch <= cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
+    if (command.epoch <= cell.memory.epoch_held) return {stale_epoch, cell.memory.epoch_held};
     // A number far ahead would leave few numbers for later CLAIMs.
-    if (command.epoch - cell.memory.epoch_held > max_epoch_jump) {
-        return {AckResult::epoch_jump, cell.memory.epoch_held};
-    }
+    if (command.epoch - cell.memory.epoch_held > max_epoch_jump) return {epoch_jump, cell.memory.epoch_held};
     if (cell.lease) {
         const bool is_same = cell.lease->owner == command.owner && cell.lease->secret == command.arg1;
         const bool has_code = cell.limits.takeover_code != 0 && command.arg0 == cell.limits.takeover_code;
-        if (!is_same && !has_code) return {AckResult::lease_busy, cell.lease->owner};
+        if (!is_same && !has_code) return {lease_busy, cell.lease->owner};
     }
     CellMemory next = cell.memory;
     next.epoch_held = command.epoch;
     const std::uint32_t grant = random_number(cell);
     next.grants[grant] = command.epoch;
-    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
-    cell.memory = std::move(next);
-    drop_preparation(cell, AckResult::stale_epoch);
+    if (!replace_memory(cell, std::move(next), hooks)) return {store_io};
+    drop_preparation(cell, stale_epoch);
     cell.lease = Lease{command.owner, command.arg1, now.steady_ms + lease_ms, now.steady_ms, std::nullopt};
     cell.watchdog_expired = false;
-    return {AckResult::ok, grant};
+    return {ok, grant};
 }
 
 Answer release(CellState& cell) {
-    drop_preparation(cell, AckResult::cancelled);
+    drop_preparation(cell, cancelled);
     cell.lease.reset();
     cell.watchdog_expired = false;
     return {};
@@ -120,30 +121,27 @@ Answer release(CellState& cell) {
 Answer machine_command(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     const CellCommand what = command.command;
     if (what == CellCommand::reset || what == CellCommand::clear) {
-        if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
+        if (command.job_id != Uuid{}) return {wrong_job};
     } else if (what == CellCommand::abort) {
-        if (command.job_id != any_job && !is_current(cell, command.job_id)) return {AckResult::wrong_job, 0};
+        if (command.job_id != any_job && !is_current(cell, command.job_id)) return {wrong_job};
     } else {
-        if (!cell.job.is_active()) return {AckResult::wrong_state, 0};
-        if (!is_current(cell, command.job_id)) return {AckResult::wrong_job, 0};
+        if (!cell.job.is_active()) return {wrong_state};
+        if (!is_current(cell, command.job_id)) return {wrong_job};
     }
     const Transition to = transition(cell.state, what);
-    if (to.kind == TransitionKind::already) return {AckResult::already, 0};
-    if (const AckResult why = refused_here(cell, what); why != AckResult::ok) return {why, 0};
-    if (what == CellCommand::unhold) {
-        if (cell.pending && cell.pending->command != what) return {AckResult::wrong_state, 0};
+    if (to.kind == TransitionKind::already) return {already};
+    if (const AckResult why = refused_here(cell, what); why != ok) return {why};
+    if (what == CellCommand::unhold || what == CellCommand::clear) {
+        if (cell.pending && cell.pending->command != what) return {wrong_state};
         return wait_for(cell, command, Pending::Waits::consent, now,
-                        "Job " + cell.job.ticket.file_name + " is held. May it go on: is the area clear?");
-    }
-    if (what == CellCommand::clear) {
-        if (cell.pending && cell.pending->command != what) return {AckResult::wrong_state, 0};
-        return wait_for(cell, command, Pending::Waits::consent, now,
-                        "The machine is aborted. Is the cell safe, and may it be cleared?");
+                        what == CellCommand::clear
+                            ? "The machine is aborted. Is the cell safe, and may it be cleared?"
+                            : "Job " + cell.job.ticket.file_name + " is held. May it go on: is the area clear?");
     }
     if (what == CellCommand::complete) cell.job.cut_short = true;
     enter_state(cell, to.to, now.steady_ms);
     if (what == CellCommand::abort) {
-        drop_preparation(cell, AckResult::wrong_state);
+        drop_preparation(cell, wrong_state);
         if (cell.job.is_active()) end_job(cell, JobState::aborted, JobResult::aborted, now, hooks);
     }
     return {};
@@ -162,7 +160,7 @@ Answer query(CellState& cell, const Command& command) {
     }
     cell.answer = answer;
     cell.has_answer = true;
-    return {answer.state == JobState::none ? AckResult::unknown_job : AckResult::ok, 0};
+    return {answer.state == JobState::none ? unknown_job : ok};
 }
 
 // The later of two starts. The time of day may have jumped: epochs rise, and so do the numbers of one owner in an
@@ -172,7 +170,7 @@ bool is_later(const JobRecord& one, const JobRecord& other) {
 }
 
 Answer query_file(CellState& cell, const Command& command) {
-    if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
+    if (command.job_id != Uuid{}) return {wrong_job};
     const std::pair<const Uuid, JobRecord>* last = nullptr;
     std::uint32_t count = 0;
     for (const auto& job : cell.memory.jobs) {
@@ -184,56 +182,54 @@ Answer query_file(CellState& cell, const Command& command) {
                    command.owner};
     if (last != nullptr && is_current(cell, last->first)) cell.answer.state = cell.job.state;
     cell.has_answer = true;
-    return {last == nullptr ? AckResult::unknown_job : AckResult::ok, count};
+    return {last == nullptr ? unknown_job : ok, count};
 }
 
 Answer set_mode(CellState& cell, const Command& command) {
-    if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
-    if (command.arg0 == static_cast<std::uint32_t>(cell.mode)) return {AckResult::already, 0};
+    if (command.job_id != Uuid{}) return {wrong_job};
+    if (command.arg0 == static_cast<std::uint32_t>(cell.mode)) return {already};
     const bool is_settable = command.arg0 >= 1 && command.arg0 <= 3 && cell.mode != UnitMode::rehearsal;
-    if (!is_settable) return {AckResult::wrong_mode, 0};
-    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
-    drop_preparation(cell, AckResult::wrong_mode);
+    if (!is_settable) return {wrong_mode};
+    if (const AckResult why = refused_here(cell, command.command); why != ok) return {why};
+    drop_preparation(cell, wrong_mode);
     cell.mode = static_cast<UnitMode>(command.arg0);
     return {};
 }
 
 Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
-    if (cell.ticket_draft.empty()) return {AckResult::no_ticket, 0};
-    const Decoded<WireTicket> ticket = decode_ticket(cell.ticket_draft);
-    if (!ticket.is_ok()) return {AckResult::ticket_crc, 0};
+    if (cell.ticket_draft.empty()) return {no_ticket};
+    const Decoded<WireTicket> ticket = decode<WireTicket>(cell.ticket_draft);
+    if (!ticket.is_ok()) return {ticket_crc};
     const Uuid& id = ticket.value.job_id;
-    if (id == Uuid{} || command.job_id != id) return {AckResult::ticket_field, address_of(ticket_block, "JOB_ID")};
+    if (id == Uuid{} || command.job_id != id) return {ticket_field, address_of(ticket_block, "JOB_ID")};
     const auto known = cell.memory.jobs.find(id);
     if (known != cell.memory.jobs.end()) {
-        return {known->second.state == JobState::cancelled ? AckResult::cancelled : AckResult::job_id_reused, 0};
+        return {known->second.state == JobState::cancelled ? cancelled : job_id_reused};
     }
     if (is_current(cell, id)) {
         const bool is_same = cell.job.ticket_block == cell.ticket_draft;
-        return {is_same ? AckResult::already : AckResult::job_id_reused, 0};
+        return {is_same ? already : job_id_reused};
     }
-    if (cell.job.state != JobState::none)
-        return {AckResult::busy_other_job, static_cast<std::uint32_t>(cell.job.state)};
-    if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
-    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
-    if (const auto fault = wrong_field(ticket.value, cell.ticket_draft, cell.limits))
-        return {fault->result, fault->address};
-    if (command.file_sha256 != ticket.value.file_sha256) return {AckResult::hash_mismatch, 0};
+    if (cell.job.state != JobState::none) return {busy_other_job, static_cast<std::uint32_t>(cell.job.state)};
+    if (cell.mode != UnitMode::production) return {wrong_mode};
+    if (const AckResult why = refused_here(cell, command.command); why != ok) return {why};
+    if (const auto fault = wrong_field(ticket.value, cell.ticket_draft, cell.limits)) return *fault;
+    if (command.file_sha256 != ticket.value.file_sha256) return {hash_mismatch};
     const bool is_chunks = ticket.value.transfer == Transfer::chunks;
     if (is_chunks && ticket.value.file_size > cell.limits.max_chunk_file)
-        return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
+        return {store_full, address_of(ticket_block, "FILE_SIZE")};
     if (hooks.remove_old_copies) {
         cell.store_free_kib = hooks.remove_old_copies(cell.memory, ticket.value.file_size + 1024ULL);
     }
     if (take(cell.faults, Fault::store_full) || ticket.value.file_size / 1024 >= cell.store_free_kib)
-        return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
+        return {store_full, address_of(ticket_block, "FILE_SIZE")};
     cell.job = CellJob{};
     cell.job.ticket = ticket.value;
     cell.job.ticket_block = cell.ticket_draft;
     cell.job.is_signed = !cell.signature_draft.empty();
     cell.job.state = JobState::stored;
     cell.job.transfer = is_chunks ? TransferState::open : TransferState::idle;
-    cell.transfer_result = AckResult::none;
+    cell.transfer_result = none;
     log(cell, hooks,
         "job " + to_text(id) + " stored: " + ticket.value.file_name + (cell.job.is_signed ? "" : " (unsigned)"));
     return {};
@@ -242,20 +238,15 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
 Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (!is_current(cell, command.job_id)) {
         const AckResult known = not_current(cell, command.job_id);
-        return {known == AckResult::cancelled   ? AckResult::already
-                : known == AckResult::wrong_job ? AckResult::unknown_job
-                                                : known,
-                0};
+        return {known == cancelled ? already : known == wrong_job ? unknown_job : known, 0};
     }
-    if (cell.job.is_finished()) return {AckResult::already_finished, 0};
-    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
-    if (!cell.job.is_waiting()) return {AckResult::wrong_state, 0};
+    if (cell.job.is_finished()) return {already_finished};
+    if (is_refused(cell, command.command) || !cell.job.is_waiting()) return {wrong_state};
     CellMemory next = cell.memory;
     next.jobs[command.job_id].state = JobState::cancelled;
-    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
-    cell.memory = std::move(next);
-    drop_preparation(cell, AckResult::cancelled);
-    if (cell.pending) settle(cell, AckResult::cancelled);
+    if (!replace_memory(cell, std::move(next), hooks)) return {store_io};
+    drop_preparation(cell, cancelled);
+    if (cell.pending) settle(cell, cancelled);
     cell.job = CellJob{};
     log(cell, hooks, "job " + to_text(command.job_id) + " cancelled");
     return {};
@@ -264,11 +255,9 @@ Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
 Answer clear_result(CellState& cell, const Command& command) {
     if (!is_current(cell, command.job_id)) {
         const AckResult known = not_current(cell, command.job_id);
-        const bool is_over = known == AckResult::already_finished || known == AckResult::cancelled;
-        return {is_over ? AckResult::already : AckResult::unknown_job, 0};
+        return {known == already_finished || known == cancelled ? already : unknown_job};
     }
-    if (!cell.job.is_finished()) return {AckResult::wrong_state, 0};
-    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
+    if (!cell.job.is_finished() || is_refused(cell, command.command)) return {wrong_state};
     cell.job = CellJob{};
     return {};
 }
@@ -276,18 +265,17 @@ Answer clear_result(CellState& cell, const Command& command) {
 // The conditions that VERIFY, REHEARSE and PREPARE have in common.
 Answer check_stored_job(const CellState& cell, const Command& command) {
     if (!is_current(cell, command.job_id)) return {not_current(cell, command.job_id), 0};
-    if (cell.job.is_finished()) return {AckResult::already_finished, 0};
-    if (cell.job.state == JobState::prepared && command.command != CellCommand::rehearse)
-        return {AckResult::already, 0};
+    if (cell.job.is_finished()) return {already_finished};
+    if (cell.job.state == JobState::prepared && command.command != CellCommand::rehearse) return {already};
     if (cell.mode != UnitMode::production && !(cell.pending && cell.pending->command == command.command)) {
-        return {AckResult::wrong_mode, 0};
+        return {wrong_mode};
     }
-    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
-    if (cell.job.state != JobState::stored) return {AckResult::wrong_state, 0};
-    if (cell.pending && cell.pending->command != command.command) return {AckResult::wrong_state, 0};
-    if (command.file_sha256 != cell.job.ticket.file_sha256) return {AckResult::hash_mismatch, 0};
+    if (const AckResult why = refused_here(cell, command.command); why != ok) return {why};
+    if (cell.job.state != JobState::stored) return {wrong_state};
+    if (cell.pending && cell.pending->command != command.command) return {wrong_state};
+    if (command.file_sha256 != cell.job.ticket.file_sha256) return {hash_mismatch};
     const bool has_file = cell.job.transfer == TransferState::complete;
-    if (command.command != CellCommand::verify && !has_file) return {AckResult::file_missing, 0};
+    if (command.command != CellCommand::verify && !has_file) return {file_missing};
     return {};
 }
 
@@ -309,28 +297,27 @@ std::string consent_question(const CellState& cell) {
 Answer prepare(CellState& cell, const Command& command, CellTime now) {
     const WireTicket& ticket = cell.job.ticket;
     const bool needs_receipt = (ticket.requirements & 1U) != 0 || command.arg0 != 0;
-    if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt))
-        return {AckResult::rehearsal_required, 0};
-    if (const auto fault = does_not_fit(ticket, cell.limits)) return {fault->result, fault->address};
-    if (cell.surroundings.tool_broken) return {AckResult::tool, address_of(ticket_block, "TOOL_NO")};
+    if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt)) return {rehearsal_required};
+    if (const auto fault = does_not_fit(ticket, cell.limits)) return *fault;
+    if (cell.surroundings.tool_broken) return {tool, address_of(ticket_block, "TOOL_NO")};
     return wait_for(cell, command, Pending::Waits::consent, now, consent_question(cell));
 }
 
 Answer start_job(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     CellJob& job = cell.job;
     if (!is_current(cell, command.job_id)) return {not_current(cell, command.job_id), 0};
-    if (job.is_active()) return {AckResult::already, 0};
-    if (job.is_finished()) return {AckResult::already_finished, 0};
-    if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
+    if (job.is_active()) return {already};
+    if (job.is_finished()) return {already_finished};
+    if (cell.mode != UnitMode::production) return {wrong_mode};
     const Transition to = transition(cell.state, CellCommand::start);
-    if (to.kind != TransitionKind::moves) return {AckResult::wrong_state, 0};
-    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
+    if (to.kind != TransitionKind::moves) return {wrong_state};
+    if (const AckResult why = refused_here(cell, command.command); why != ok) return {why};
     if (job.state != JobState::prepared || command.token != job.token) {
         const bool is_expired = command.token != 0 && command.token == job.expired_token;
-        return {is_expired ? AckResult::token_expired : AckResult::token_bad, 0};
+        return {is_expired ? token_expired : token_bad};
     }
-    if (command.file_sha256 != job.ticket.file_sha256) return {AckResult::hash_mismatch, 0};
-    if (cell.memory.jobs.count(command.job_id) != 0) return {AckResult::job_id_reused, 0};
+    if (command.file_sha256 != job.ticket.file_sha256) return {hash_mismatch};
+    if (cell.memory.jobs.count(command.job_id) != 0) return {job_id_reused};
     CellMemory next = cell.memory;
     JobRecord& record = next.jobs[command.job_id];
     record.state = JobState::running;
@@ -341,8 +328,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     record.file_sha256 = job.stored_sha256;
     ++next.starts_total;
     assert(next.jobs.size() == cell.memory.jobs.size() + 1 && record.starts == 1);
-    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};  // before anything moves
-    cell.memory = std::move(next);
+    if (!replace_memory(cell, std::move(next), hooks)) return {store_io};  // before anything moves
     job.token = 0;
     job.state = JobState::running;
     job.result = JobResult::none;
@@ -352,30 +338,20 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
 }
 
 Answer job_command(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
-    switch (command.command) {
-        case CellCommand::release:
-            return release(cell);
-        case CellCommand::store:
-            return store(cell, command, hooks);
-        case CellCommand::cancel:
-            return cancel(cell, command, hooks);
-        case CellCommand::query:
-            return query(cell, command);
-        case CellCommand::query_file:
-            return query_file(cell, command);
-        case CellCommand::clear_result:
-            return clear_result(cell, command);
-        case CellCommand::set_mode:
-            return set_mode(cell, command);
-        default:
-            break;
-    }
+    const CellCommand what = command.command;
+    if (what == CellCommand::release) return release(cell);
+    if (what == CellCommand::store) return store(cell, command, hooks);
+    if (what == CellCommand::cancel) return cancel(cell, command, hooks);
+    if (what == CellCommand::query) return query(cell, command);
+    if (what == CellCommand::query_file) return query_file(cell, command);
+    if (what == CellCommand::clear_result) return clear_result(cell, command);
+    if (what == CellCommand::set_mode) return set_mode(cell, command);
     const Answer fitness = check_stored_job(cell, command);
-    if (fitness.result != AckResult::ok) return fitness;
-    if (command.command == CellCommand::prepare) return prepare(cell, command, now);
-    if (command.command == CellCommand::verify) {
+    if (fitness.result != ok) return fitness;
+    if (what == CellCommand::prepare) return prepare(cell, command, now);
+    if (what == CellCommand::verify) {
         const bool is_partial = cell.job.chunks.size() < cell.job.ticket.file_size;
-        if (cell.job.ticket.transfer == Transfer::chunks && is_partial) return {AckResult::file_missing, 0};
+        if (cell.job.ticket.transfer == Transfer::chunks && is_partial) return {file_missing};
         return wait_for(cell, command, Pending::Waits::file, now, {});
     }
     cell.mode = UnitMode::rehearsal;
@@ -383,12 +359,12 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
 }
 
 Answer execute(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
-    if (command.owner == 0) return {AckResult::not_owner, 0};
-    if (!is_known(command.command)) return {AckResult::unknown_cmd, 0};
+    if (command.owner == 0) return {not_owner};
+    if (!is_known(command.command)) return {unknown_cmd};
     if (command.command == CellCommand::claim) return claim(cell, command, now, hooks);
     if (needs_lease(command.command)) {
-        if (command.epoch < cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
-        if (!holds_lease(cell, command.owner, command.epoch)) return {AckResult::not_owner, 0};
+        if (command.epoch < cell.memory.epoch_held) return {stale_epoch, cell.memory.epoch_held};
+        if (!holds_lease(cell, command.owner, command.epoch)) return {not_owner};
     }
     if (command.command == CellCommand::start) return start_job(cell, command, now, hooks);
     if (static_cast<std::uint16_t>(command.command) >= static_cast<std::uint16_t>(CellCommand::claim)) {
@@ -413,7 +389,7 @@ void keep_acknowledgement(CellState& cell, const Acknowledgement& ack) {
 
 void receive_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks) {
     pass_time(cell, now, hooks);
-    const Decoded<Command> decoded = decode_command(block);
+    const Decoded<Command> decoded = decode<Command>(block);
     if (decoded.fault == BlockFault::empty || decoded.fault == BlockFault::length) return;
     if (!decoded.is_ok()) return cell::count_bad_frame(cell, cell::reason_of(decoded.fault), hooks);
     const Command& command = decoded.value;
@@ -426,7 +402,7 @@ void receive_command(CellState& cell, std::span<const std::uint16_t> block, Cell
         return;
     }
     // What a later version of the map asks for there is not done by half.
-    const std::optional<std::uint16_t> used = used_reserved_of_command(block);
+    const std::optional<std::uint16_t> used = used_reserved<Command>(block);
     const cell::Answer answer =
         used ? cell::Answer{AckResult::unknown_cmd, *used} : cell::execute(cell, command, now, hooks);
     const Acknowledgement ack{command.owner, command.seq, crc, command.command, answer.result, answer.detail};

@@ -4,8 +4,7 @@
 
 #pragma once
 
-#include "sim/cell/cell_hooks.h"
-#include "sim/cell/cell_state.h"
+#include "sim/cell/machine.h"
 
 namespace qchopper::cell {
 

@@ -122,13 +122,12 @@ void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
     if (!cell.pending) return;
     if (cell.pending->waits == Pending::Waits::consent && cell.limits.consent != Consent::ask) {
         const bool yes = cell.limits.consent == Consent::automatic && is_block_right(cell);
-        consent_given(cell, cell.pending->number, yes, now, hooks);
-        return;
+        return consent_given(cell, cell.pending->number, yes, now, hooks);
     }
     if (cell.pending->waits != Pending::Waits::rehearsal || now.steady_ms < cell.pending->due_ms) return;
     if (const auto fault = does_not_fit(cell.job.ticket, cell.limits)) {
         cell.job.result = JobResult::rehearsal_failed;
-        settle(cell, fault->result, fault->address);
+        settle(cell, fault->result, fault->detail);
     } else {
         cell.job.result = JobResult::rehearsal_passed;
         cell.job.receipt = random_number(cell);
@@ -203,19 +202,12 @@ void consent_given(CellState& cell, std::uint64_t number, bool yes, CellTime now
     if (!cell.pending || cell.pending->number != number || cell.pending->waits != Pending::Waits::consent) return;
     const CellCommand command = cell.pending->command;
     cell::log(cell, hooks, std::string("consent to ") + name(command) + (yes ? " given" : " refused"));
-    if (!cell.surroundings.is_safe()) {
-        cell::settle(cell, AckResult::safety_open);
-        return;
-    }
-    if (!yes || take(cell.faults, Fault::no_consent)) {
-        cell::settle(cell, AckResult::no_consent);
-        return;
-    }
+    if (!cell.surroundings.is_safe()) return cell::settle(cell, AckResult::safety_open);
+    if (!yes || take(cell.faults, Fault::no_consent)) return cell::settle(cell, AckResult::no_consent);
     const Transition to = transition(cell.state, command);
     const bool is_stored = command != CellCommand::prepare || cell.job.state == JobState::stored;
     if (to.kind == TransitionKind::refused || to.kind == TransitionKind::already || !is_stored) {
-        cell::settle(cell, AckResult::wrong_state);
-        return;
+        return cell::settle(cell, AckResult::wrong_state);
     }
     if (to.kind == TransitionKind::moves) {
         cell::enter_state(cell, to.to, now.steady_ms);
@@ -235,8 +227,7 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
     if (!cell.pending || cell.pending->number != number) return;
     const WireTicket& ticket = cell.job.ticket;
     AckResult result = AckResult::ok;
-    if (check.end == FileCheck::End::missing)
-        result = AckResult::file_missing;
+    if (check.end == FileCheck::End::missing) result = AckResult::file_missing;
     else if (check.end == FileCheck::End::io_error)
         result = AckResult::store_io;
     else if (check.size != ticket.file_size)

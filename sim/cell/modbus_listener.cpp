@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -16,10 +17,9 @@
 namespace qchopper {
 namespace {
 
-[[noreturn]] void refuse(const ListenerOptions& options, const std::string& why, const std::string& to_do,
+[[noreturn]] void refuse(const ListenAt& where, const std::string& why, const std::string& to_do,
                          InputFault fault = InputFault::use) {
-    throw InputError(fault, "cannot listen on " + options.host + ":" + std::to_string(options.port) + ": " + why,
-                     to_do);
+    throw InputError(fault, "cannot listen on " + where.host + ":" + std::to_string(where.port) + ": " + why, to_do);
 }
 
 }  // namespace
@@ -40,8 +40,8 @@ bool is_loopback(const std::string& address) {
     return address == "::1" || address.starts_with("127.");
 }
 
-Listener listen_on(const ListenerOptions& options) {
-    const std::string host = options.host == "localhost" ? "127.0.0.1" : options.host;
+Listener listen_on(const ListenAt& where) {
+    const std::string host = where.host == "localhost" ? "127.0.0.1" : where.host;
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_STREAM;
     wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
@@ -50,16 +50,16 @@ Listener listen_on(const ListenerOptions& options) {
     in6_addr v6{};
     // inet_pton is strict: other functions accept "0" and "127.1".
     const bool is_numeric = inet_pton(AF_INET, host.c_str(), &v4) == 1 || inet_pton(AF_INET6, host.c_str(), &v6) == 1;
-    if (!is_numeric || getaddrinfo(host.c_str(), std::to_string(options.port).c_str(), &wanted, &found) != 0) {
-        refuse(options, "this is not a numeric address", "Give an address such as 127.0.0.1.");
+    if (!is_numeric || getaddrinfo(host.c_str(), std::to_string(where.port).c_str(), &wanted, &found) != 0) {
+        refuse(where, "this is not a numeric address", "Give an address such as 127.0.0.1.");
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
-    if (!is_loopback(host) && options.allow.empty()) {
-        refuse(options, "other computers could reach it, and no list of allowed addresses is given",
+    if (!is_loopback(host) && where.allow.empty()) {
+        refuse(where, "other computers could reach it, and no list of allowed addresses is given",
                "Listen on 127.0.0.1.");
     }
     const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd < 0) refuse(options, std::strerror(errno), "", InputFault::create);
+    if (fd < 0) refuse(where, std::strerror(errno), "", InputFault::create);
     const int on = 1;
     setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     sockaddr_storage bound{};
@@ -68,7 +68,7 @@ Listener listen_on(const ListenerOptions& options) {
         getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
         const int error = errno;
         close(fd);
-        refuse(options, std::strerror(error), "Choose another port, or 0 for a free one.", InputFault::create);
+        refuse(where, std::strerror(error), "Choose another port, or 0 for a free one.", InputFault::create);
     }
     const std::uint16_t port = bound.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in&>(bound).sin_port
                                                           : reinterpret_cast<const sockaddr_in6&>(bound).sin6_port;

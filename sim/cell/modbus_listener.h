@@ -1,30 +1,28 @@
-// The listening socket of the cell's server, and the addresses of its peers as text.
-//
-// For modbus_server.cpp only.
+// Where the server of a cell listens, its socket, and the addresses of its peers as text.
 
 #pragma once
-
-#include <sys/socket.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+struct sockaddr_storage;
+
 namespace qchopper {
+
+struct ListenAt {
+    std::string host = "127.0.0.1";  // numeric; any other than loopback needs an allow-list
+    std::uint16_t port = 0;          // 0: a free one
+    std::vector<std::string> allow;  // numeric addresses that may connect; loopback always may
+};
 
 struct Listener {
     int fd = -1;
     std::uint16_t port = 0;
 };
 
-// Where to listen; see ModbusServerOptions.
-struct ListenerOptions {
-    std::string host;
-    std::uint16_t port = 0;
-    std::vector<std::string> allow;
-};
 // Non-blocking. Throws InputError (use, create): address not numeric, not allowed, or in use.
-Listener listen_on(const ListenerOptions& options);
+Listener listen_on(const ListenAt& where);
 
 // Numeric; an IPv4 peer of an IPv6 socket as IPv4.
 std::string numeric(const sockaddr_storage& address);

@@ -73,7 +73,7 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
 std::uint8_t write_block(const Block& block, const Registers& registers, CellState& cell, CellTime now,
                          const CellHooks& hooks) {
     if (&block == &chunk_block) {
-        const Decoded<Chunk> chunk = decode_chunk(registers);
+        const Decoded<Chunk> chunk = decode<Chunk>(registers);
         if (!chunk.is_ok()) return illegal_value;
         pass_time(cell, now, hooks);
         receive_chunk(cell, chunk.value);
@@ -125,16 +125,10 @@ Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState
     if (const auto code = take(cell.faults, Fault::exception)) {
         return exception_pdu(pdu[0], static_cast<std::uint8_t>(*code));
     }
-    switch (pdu[0]) {
-        case read_holding:
-            return answer_read(Side::holding, pdu, cell, now, hooks);
-        case read_input:
-            return answer_read(Side::input, pdu, cell, now, hooks);
-        case write_holding:
-            return answer_write(pdu, cell, now, hooks);
-        default:
-            return exception_pdu(pdu[0], illegal_function);
-    }
+    if (pdu[0] == read_holding) return answer_read(Side::holding, pdu, cell, now, hooks);
+    if (pdu[0] == read_input) return answer_read(Side::input, pdu, cell, now, hooks);
+    if (pdu[0] == write_holding) return answer_write(pdu, cell, now, hooks);
+    return exception_pdu(pdu[0], illegal_function);
 }
 
 }  // namespace qchopper

@@ -20,8 +20,6 @@
 #include <list>
 #include <thread>
 
-#include "sim/cell/modbus_listener.h"
-
 namespace qchopper {
 namespace {
 
@@ -338,7 +336,7 @@ ModbusServer::~ModbusServer() {
 
 void ModbusServer::start() {
     if (loop_->thread.joinable()) return;
-    loop_->listener = listen_on({loop_->options.host, loop_->options.port, loop_->options.allow});
+    loop_->listener = listen_on(loop_->options);
     loop_->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     loop_->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
     loop_->thread = std::thread([this] { loop_->run(); });

@@ -16,13 +16,11 @@
 
 #include "base/files/file.h"
 #include "sim/cell/faults.h"
+#include "sim/cell/modbus_listener.h"
 
 namespace qchopper {
 
-struct ModbusServerOptions {
-    std::string host = "127.0.0.1";  // numeric; any other than loopback needs an allow-list
-    std::uint16_t port = 0;          // 0: a free one
-    std::vector<std::string> allow;  // numeric addresses that may connect; loopback always may
+struct ModbusServerOptions : ListenAt {
     double frame_s = 2;
     double drain_s = 2;
     double idle_s = 60;

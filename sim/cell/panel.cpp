@@ -2,6 +2,7 @@
 
 #include "sim/cell/panel.h"
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 
@@ -57,30 +58,16 @@ void set_block(CellState& cell, BlockOnTable block, const CellHooks& hooks) {
 }
 
 void perform(CellState& cell, const ScriptLine& line, CellTime now, const CellHooks& hooks) {
-    switch (line.act) {
-        case Act::policy:
-            cell.limits.consent = static_cast<Consent>(line.choice);
-            return;
-        case Act::door:
-            return open_door(cell, line.choice == 1, now, hooks);
-        case Act::e_stop:
-            return press_e_stop(cell, line.choice == 1, now, hooks);
-        case Act::panel:
-            return set_local_control(cell, line.choice == 1, hooks);
-        case Act::block:
-            return set_block(cell, static_cast<BlockOnTable>(line.choice), hooks);
-        case Act::tool:
-            return set_tool_broken(cell, line.choice == 1, now, hooks);
-        case Act::seed:
-            cell.faults.random = static_cast<std::uint64_t>(line.number);
-            return;
-        case Act::fault:
-            return arm(cell, line.fault, now);
-        case Act::clear_faults:
-            return disarm_all(cell);
-        default:
-            return;
-    }
+    const Act act = line.act;
+    if (act == Act::policy) cell.limits.consent = static_cast<Consent>(line.choice);
+    if (act == Act::door) open_door(cell, line.choice == 1, now, hooks);
+    if (act == Act::e_stop) press_e_stop(cell, line.choice == 1, now, hooks);
+    if (act == Act::panel) set_local_control(cell, line.choice == 1, hooks);
+    if (act == Act::block) set_block(cell, static_cast<BlockOnTable>(line.choice), hooks);
+    if (act == Act::tool) set_tool_broken(cell, line.choice == 1, now, hooks);
+    if (act == Act::seed) cell.faults.random = static_cast<std::uint64_t>(line.number);
+    if (act == Act::fault) arm(cell, line.fault, now);
+    if (act == Act::clear_faults) disarm_all(cell);
 }
 
 bool holds(const CellState& cell, std::size_t choice) {
@@ -96,19 +83,13 @@ bool holds(const CellState& cell, std::size_t choice) {
 }
 
 void arm(CellState& cell, const ArmedFault& fault, CellTime now) {
-    const auto cut = [&](PowerCut::Store store) {
-        const std::uint64_t after = fault.number < 1 ? 1 : static_cast<std::uint64_t>(fault.number);
-        cell.power = {cell.steps + after, store, false};
-    };
+    if (fault.fault >= Fault::power_cut && fault.fault <= Fault::power_cut_all_back) {
+        const int store = static_cast<int>(fault.fault) - static_cast<int>(Fault::power_cut);  // the same order
+        const auto after = static_cast<std::uint64_t>(std::max<std::int64_t>(1, fault.number));
+        cell.power = {cell.steps + after, static_cast<PowerCut::Store>(store), false};
+        return;
+    }
     switch (fault.fault) {
-        case Fault::power_cut:
-            return cut(PowerCut::Store::stays);
-        case Fault::power_cut_store_lost:
-            return cut(PowerCut::Store::lost);
-        case Fault::power_cut_store_back:
-            return cut(PowerCut::Store::back);
-        case Fault::power_cut_all_back:
-            return cut(PowerCut::Store::all_back);
         case Fault::clock_jump:
             cell.jump_ms += 1000 * fault.number;
             return;

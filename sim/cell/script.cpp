@@ -141,14 +141,6 @@ ScriptLine line_from(Words& words, const std::string& name, std::size_t line) {
     return choice_from(words, first, name, line);
 }
 
-std::string text_of(const ArmedFault& fault) {
-    const NamedFault& row = all_faults()[static_cast<std::size_t>(fault.fault)];
-    std::string text = std::string("fault ") + row.name;
-    if (row.argument[0] != '\0') text += " " + std::to_string(fault.number);
-    text += fault.times == 0 ? " always" : " times " + std::to_string(fault.times);
-    return text + " chance " + std::to_string(fault.per_thousand / 10);
-}
-
 }  // namespace
 
 std::span<const ActRow> all_choices() {
@@ -171,25 +163,6 @@ std::vector<ScriptLine> parse_script(std::string_view text, const std::string& n
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return lines;
-}
-
-std::string to_text(const ScriptLine& line) {
-    for (const ActRow& row : rows()) {
-        if (row.act == line.act) return std::string(row.word) + " " + row.choices[line.choice];
-    }
-    const std::string number = std::to_string(line.number);
-    switch (line.act) {
-        case Act::wait:
-            return "wait " + number;
-        case Act::seed:
-            return "seed " + number.substr(0, number.find('.'));
-        case Act::fault:
-            return text_of(line.fault);
-        case Act::clear_faults:
-            return "fault clear";
-        default:
-            return line.act == Act::quit ? "quit" : "show";
-    }
 }
 
 }  // namespace qchopper

@@ -11,11 +11,11 @@
 namespace qchopper {
 namespace {
 
-TicketFault fault_at(std::uint16_t address) {
+CommandAnswer fault_at(std::uint16_t address) {
     return {AckResult::ticket_field, address};
 }
 
-TicketFault fault_in(const char* field_name) {
+CommandAnswer fault_in(const char* field_name) {
     return fault_at(address_of(ticket_block, field_name));
 }
 
@@ -36,7 +36,7 @@ bool has_hidden_text(const std::string& text, const Field& field, std::span<cons
 }
 
 // No value may exceed the largest one in the rack.
-std::optional<TicketFault> wrong_tool_value(const WireTicket& t, const std::vector<CellTool>& tools) {
+std::optional<CommandAnswer> wrong_tool_value(const WireTicket& t, const std::vector<CellTool>& tools) {
     CellTool largest{0, 0, 0, 0};
     for (const CellTool& tool : tools) {
         largest.diameter = std::max(largest.diameter, tool.diameter);
@@ -51,8 +51,8 @@ std::optional<TicketFault> wrong_tool_value(const WireTicket& t, const std::vect
 
 }  // namespace
 
-std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std::uint16_t> block,
-                                       const CellLimits& limits) {
+std::optional<CommandAnswer> wrong_field(const WireTicket& t, std::span<const std::uint16_t> block,
+                                         const CellLimits& limits) {
     if (t.ticket_version != 1) return fault_in("TICKET_VERSION");
     if (t.job_id == Uuid{}) return fault_in("JOB_ID");
     if (t.file_size == 0) return fault_in("FILE_SIZE");
@@ -74,9 +74,7 @@ std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std:
     if (t.requirements > 1) return fault_in("REQUIREMENTS");
     const bool is_divided = t.part != 0 || t.parts != 0;
     if (is_divided && (t.part < 1 || t.part > t.parts)) return fault_in("PART");
-    if (!is_divided && t.part != 0) return fault_in("PART");
-    if (!is_divided && t.parts != 0) return fault_in("PARTS");
-    const std::optional<std::uint16_t> used = used_reserved_of_ticket(block);
+    const std::optional<std::uint16_t> used = used_reserved<WireTicket>(block);
     if (used && *used < address_of(ticket_block, "CELL_ID")) return fault_at(*used);
     if (t.cell_id != limits.cell_id) return fault_in("CELL_ID");
     if (t.made_for != 1) return fault_in("MADE_FOR");  // not for a real cell: this one is simulated
@@ -84,25 +82,25 @@ std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std:
     return std::nullopt;
 }
 
-std::optional<TicketFault> does_not_fit(const WireTicket& t, const CellLimits& limits) {
+std::optional<CommandAnswer> does_not_fit(const WireTicket& t, const CellLimits& limits) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         // Rounded as the ticket is.
         if (t.box_min[a] < std::round(100 * limits.workspace.min[axis]))
-            return TicketFault{AckResult::envelope, axis_address("BOX_MIN", axis)};
+            return CommandAnswer{AckResult::envelope, axis_address("BOX_MIN", axis)};
         if (t.box_max[a] > std::round(100 * limits.workspace.max[axis]))
-            return TicketFault{AckResult::envelope, axis_address("BOX_MAX", axis)};
+            return CommandAnswer{AckResult::envelope, axis_address("BOX_MAX", axis)};
         if (t.stock[a] > std::round(100 * limits.max_stock[axis]))
-            return TicketFault{AckResult::envelope, axis_address("STOCK", axis)};
+            return CommandAnswer{AckResult::envelope, axis_address("STOCK", axis)};
         // In 64 bits: two opposite ends of the range do not fit into 32.
         if (std::int64_t{t.box_max[a]} - t.box_min[a] > t.stock[a]) {
-            return TicketFault{AckResult::stock_too_small, axis_address("STOCK", axis)};
+            return CommandAnswer{AckResult::stock_too_small, axis_address("STOCK", axis)};
         }
     }
     const bool has_tool =
         limits.tools.empty() || std::any_of(limits.tools.begin(), limits.tools.end(),
                                             [&](const CellTool& tool) { return tool.number == t.tool_no; });
-    if (!has_tool) return TicketFault{AckResult::tool, address_of(ticket_block, "TOOL_NO")};
+    if (!has_tool) return CommandAnswer{AckResult::tool, address_of(ticket_block, "TOOL_NO")};
     if (t.box_min[2] < 0) return fault_at(axis_address("BOX_MIN", 2));  // below the table
     return limits.tools.empty() ? std::nullopt : wrong_tool_value(t, limits.tools);
 }

@@ -1,7 +1,7 @@
 // Checks the values of a ticket, and whether its job fits the cell.
 //
-// The address of a fault is that of the first wrong field in the register map (tests/sim/cell/stored_job_test.cpp,
-// tests/sim/cell/preparation_test.cpp).
+// The detail of an answer is the address of the first wrong field in the register map
+// (tests/sim/cell/stored_job_test.cpp, tests/sim/cell/preparation_test.cpp).
 
 #pragma once
 
@@ -12,16 +12,11 @@
 
 namespace qchopper {
 
-struct TicketFault {
-    AckResult result = AckResult::ticket_field;
-    std::uint16_t address = 0;
-};
-
 // For STORE. `block` holds the registers that `ticket` was decoded from, all of TICKET.
-std::optional<TicketFault> wrong_field(const WireTicket& ticket, std::span<const std::uint16_t> block,
-                                       const CellLimits& limits);
+std::optional<CommandAnswer> wrong_field(const WireTicket& ticket, std::span<const std::uint16_t> block,
+                                         const CellLimits& limits);
 
 // For PREPARE and REHEARSE, before the operator is asked: reach, stock, tool and its speeds.
-std::optional<TicketFault> does_not_fit(const WireTicket& ticket, const CellLimits& limits);
+std::optional<CommandAnswer> does_not_fit(const WireTicket& ticket, const CellLimits& limits);
 
 }  // namespace qchopper

@@ -219,7 +219,7 @@ void CellSteps::demand_status() {
     for (std::size_t i = 2; i < bytes.size(); i += 2) {
         registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
     }
-    demand(decode_status(registers).is_ok());
+    demand(decode<Status>(registers).is_ok());
 }
 
 void CellSteps::demand_one_start(bool was_active) {

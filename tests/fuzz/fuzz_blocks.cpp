@@ -57,25 +57,25 @@ void try_registers(unsigned which, unsigned bit, const Registers& registers) {
     };
     switch (which % 7) {
         case 0:
-            return try_block(status_block, "STATUS_CRC", registers, bit, decode_status, named_twice);
+            return try_block(status_block, "STATUS_CRC", registers, bit, decode<Status>, named_twice);
         case 1:
-            return try_block(result_block, "CRC", registers, bit, decode_result, as_it_is);
+            return try_block(result_block, "CRC", registers, bit, decode<ResultRecord>, as_it_is);
         case 2:
-            return try_block(command_block, "CRC", registers, bit, decode_command, named);
+            return try_block(command_block, "CRC", registers, bit, decode<Command>, named);
         case 3:
-            return try_block(ticket_block, "CRC", registers, bit, decode_ticket, as_it_is);
+            return try_block(ticket_block, "CRC", registers, bit, decode<WireTicket>, as_it_is);
         case 4: {
-            const Decoded<Heartbeat> heartbeat = decode_heartbeat(registers);
+            const Decoded<Heartbeat> heartbeat = decode<Heartbeat>(registers);
             if (heartbeat.is_ok()) demand(encode(heartbeat.value) == registers);
             return;
         }
         case 6:
-            return try_block(identity_block, "CRC", registers, bit, decode_identity, named);
+            return try_block(identity_block, "CRC", registers, bit, decode<Identity>, named);
         default: {
-            const Decoded<Chunk> chunk = decode_chunk(registers);
+            const Decoded<Chunk> chunk = decode<Chunk>(registers);
             if (!chunk.is_ok()) return;
             demand(!chunk.value.data.empty() && chunk.value.data.size() <= max_chunk_bytes);
-            demand(decode_chunk(encode(chunk.value)).value == chunk.value);
+            demand(decode<Chunk>(encode(chunk.value)).value == chunk.value);
         }
     }
 }

@@ -37,11 +37,11 @@ JobInput cube_job(const Cell& cell, const std::vector<std::uint16_t>& tools, Vec
 
 std::string fault_of(const JobInput& input) {
     const JobTicket ticket{ticket_template(input), "A.qjob", 1000, {}};
-    TicketOrder order;
+    WireTicket order;
     order.cell_id = input.cell.id;
-    order.simulated = true;
+    order.made_for = 1;
     const auto fault = does_not_fit(wire_ticket(ticket, order), simulated_limits(input.cell));
-    return fault ? std::string(name(fault->result)) + " at " + std::to_string(fault->address) : "";
+    return fault ? std::string(name(fault->result)) + " at " + std::to_string(fault->detail) : "";
 }
 
 struct SimulatedLimits : ::testing::TestWithParam<const char*> {};

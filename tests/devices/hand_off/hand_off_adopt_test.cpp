@@ -15,7 +15,7 @@ HandOffPlan adopting(bool may_have_arrived) {
     plan.options.past.epoch = 5;
     plan.options.past.seq = 50;
     plan.options.past.is_stored = true;
-    plan.options.past.start_may_have_arrived = may_have_arrived;
+    plan.options.past.start_sent = may_have_arrived;
     return plan;
 }
 

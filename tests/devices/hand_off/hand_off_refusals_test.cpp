@@ -92,7 +92,7 @@ TEST(Fault, F58_AStopOnRequestWhileTheJobRunsIsSentAndConfirmed) {
     cell.run();
     EXPECT_EQ(cell.count(CellCommand::stop), 1);
     EXPECT_EQ(cell.state.start_outcome, StartOutcome::started);
-    EXPECT_TRUE(cell.state.is_cancelled);
+    EXPECT_TRUE(cell.state.cancelled);
     EXPECT_EQ(cell.status.starts_total, 1U);
     EXPECT_NE(cell.state.why.find("stopped"), std::string::npos) << cell.state.why;
 }

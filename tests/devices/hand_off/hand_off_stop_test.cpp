@@ -23,7 +23,7 @@ TEST(Fault, F58_AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStart
         cell.run();
         EXPECT_EQ(cell.count(CellCommand::start), 0) << at;
         EXPECT_EQ(cell.state.start_outcome, StartOutcome::not_started) << at;
-        EXPECT_TRUE(cell.state.is_cancelled);
+        EXPECT_TRUE(cell.state.cancelled);
         if (cell.count(CellCommand::store) > 0) {
             EXPECT_TRUE(was_stored);
             EXPECT_EQ(cell.count(CellCommand::cancel), 1) << at << cell.order();
@@ -70,7 +70,7 @@ TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
                                             : before.start_sent ? StartOutcome::unknown
                                                                 : StartOutcome::not_started)
             << turns << cell.state.why;
-        EXPECT_TRUE(cell.state.is_cancelled);
+        EXPECT_TRUE(cell.state.cancelled);
         EXPECT_FALSE(cell.state.why.empty());
         const auto was_written = [&](CellCommand command) {
             return std::count(cell.written.begin(), cell.written.end(), command) > 0;
@@ -156,7 +156,7 @@ TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementTheAnswerOfTheCellIsRe
         const double asked_s = cell.now_s;
         cell.run();
         EXPECT_LE(cell.now_s - asked_s, 2.05);
-        EXPECT_EQ(cell.state.is_cancelled, answer != AckResult::safety_open);  // that end is the cell's own
+        EXPECT_EQ(cell.state.cancelled, answer != AckResult::safety_open);  // that end is the cell's own
         EXPECT_EQ(cell.state.start_outcome, answer == AckResult::ok     ? StartOutcome::started
                                             : answer == AckResult::none ? StartOutcome::unknown
                                                                         : StartOutcome::not_started)

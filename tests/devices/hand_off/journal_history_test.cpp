@@ -52,7 +52,7 @@ TEST(JournalHistory, AJobIsOpenUntilItsEndIsCertain) {
     rows.command(CellCommand::store, 3);
     EXPECT_TRUE(rows.first().is_stored);
     rows.add(Is::start_intent);
-    EXPECT_TRUE(rows.first().start_may_have_arrived);
+    EXPECT_TRUE(rows.first().start_sent);
     rows.add(Is::closed).start_outcome = StartOutcome::unknown;
     EXPECT_TRUE(rows.first().is_open());
     rows.add(Is::resumed);
@@ -72,7 +72,7 @@ TEST(JournalHistory, AJobThatWasNotStartedIsClosed) {
     rows.add(Is::created);
     rows.add(Is::start_intent);
     rows.add(Is::start_void);
-    EXPECT_FALSE(rows.first().start_may_have_arrived);
+    EXPECT_FALSE(rows.first().start_sent);
     rows.add(Is::closed).start_outcome = StartOutcome::not_started;
     EXPECT_FALSE(rows.first().is_open());
 }

@@ -173,7 +173,7 @@ TEST(Fault, F26_AJournalCutOffAtAnyByteOpensWithTheRowsBefore) {
             rows = content.rows.size();
             // The intent is there: the START may have arrived, whatever was lost after it.
             if (rows > 1) {
-                EXPECT_TRUE(history_of(content.rows).jobs.at(0).start_may_have_arrived) << size;
+                EXPECT_TRUE(history_of(content.rows).jobs.at(0).start_sent) << size;
             }
         } catch (const InputError&) {
             ASSERT_EQ(before, 0U) << size;  // the tables were not yet there, and no command was sent before they were

@@ -75,7 +75,7 @@ Command a_command() {
 
 TEST(Codec, ACommandIsTheseRegisters) {
     EXPECT_EQ(encode(a_command()), command_registers);
-    const Decoded<Command> back = decode_command(command_registers);
+    const Decoded<Command> back = decode<Command>(command_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, a_command());
 }
@@ -129,7 +129,7 @@ Status a_status() {
 
 TEST(Codec, AStatusIsTheseRegisters) {
     EXPECT_EQ(encode(a_status()), status_registers);
-    const Decoded<Status> back = decode_status(status_registers);
+    const Decoded<Status> back = decode<Status>(status_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, a_status());
 }
@@ -141,7 +141,7 @@ TEST(Codec, AResultIsTheseRegisters) {
         11,
         0x89ABCDEF};
     EXPECT_EQ(encode(result), result_registers);
-    const Decoded<ResultRecord> back = decode_result(result_registers);
+    const Decoded<ResultRecord> back = decode<ResultRecord>(result_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, result);
 }
@@ -152,7 +152,7 @@ Identity an_identity() {
 
 TEST(Codec, AnIdentityIsTheseRegisters) {
     EXPECT_EQ(encode(an_identity()), identity_registers);
-    const Decoded<Identity> back = decode_identity(identity_registers);
+    const Decoded<Identity> back = decode<Identity>(identity_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, an_identity());
 }
@@ -171,20 +171,28 @@ JobTicket a_ticket() {
     ticket.about.spindle_max_rpm = 18000;
     ticket.about.feed_max_mm_per_min = 6000;
     ticket.about.estimated_time_s = 20;
+    ticket.about.part = 2;
+    ticket.about.parts = 3;
     ticket.file_name = "a.qjob";
     ticket.file_size = 5000;
     ticket.file_sha256 = digest(0xAA, 0xAA);
     return ticket;
 }
 
-TicketOrder an_order() {
-    return {job, 0x0190'1234'5678, 7, true, true, Transfer::drop_folder, LinkLoss::hold, 2, 3};
+WireTicket an_order() {
+    WireTicket order;
+    order.job_id = job;
+    order.created_ms = 0x0190'1234'5678;
+    order.cell_id = 7;
+    order.made_for = order.requirements = 1;
+    order.on_link_loss = LinkLoss::hold;
+    return order;
 }
 
 TEST(Codec, ATicketIsTheseRegisters) {
     const WireTicket ticket = wire_ticket(a_ticket(), an_order());
     EXPECT_EQ(encode(ticket), ticket_registers);
-    const Decoded<WireTicket> back = decode_ticket(ticket_registers);
+    const Decoded<WireTicket> back = decode<WireTicket>(ticket_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, ticket);
 }
@@ -192,12 +200,12 @@ TEST(Codec, ATicketIsTheseRegisters) {
 TEST(Codec, AHeartbeatAndAChunkAreTheseRegisters) {
     const Heartbeat heartbeat{5, 0x89ABCDEF, 17};
     EXPECT_EQ(encode(heartbeat), (Registers{0, 5, 0x89AB, 0xCDEF, 17}));
-    EXPECT_EQ(decode_heartbeat(encode(heartbeat)).value, heartbeat);
+    EXPECT_EQ(decode<Heartbeat>(encode(heartbeat)).value, heartbeat);
     Chunk chunk{232, {1, 2, 3}, 0};
     chunk.crc = chunk_crc(5, 0x89ABCDEF, job, chunk.offset, chunk.data);
     EXPECT_EQ(chunk.crc, 0xF7CD8CEBU);
     EXPECT_EQ(encode(chunk), (Registers{0, 232, 3, 0xF7CD, 0x8CEB, 0x0102, 0x0300}));
-    EXPECT_EQ(decode_chunk(encode(chunk)).value, chunk);
+    EXPECT_EQ(decode<Chunk>(encode(chunk)).value, chunk);
 }
 
 TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
@@ -206,40 +214,40 @@ TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
         return registers;
     };
     for (std::size_t bit = 0; bit < 16 * command_registers.size(); ++bit) {
-        EXPECT_FALSE(decode_command(flipped(command_registers, bit)).is_ok()) << bit;
-        EXPECT_FALSE(decode_result(flipped(result_registers, bit)).is_ok()) << bit;
+        EXPECT_FALSE(decode<Command>(flipped(command_registers, bit)).is_ok()) << bit;
+        EXPECT_FALSE(decode<ResultRecord>(flipped(result_registers, bit)).is_ok()) << bit;
     }
     for (std::size_t bit = 0; bit < 16 * identity_registers.size(); ++bit) {
-        EXPECT_FALSE(decode_identity(flipped(identity_registers, bit)).is_ok()) << bit;
+        EXPECT_FALSE(decode<Identity>(flipped(identity_registers, bit)).is_ok()) << bit;
     }
     for (std::size_t bit = 0; bit < 16 * ticket_registers.size(); ++bit) {
-        EXPECT_FALSE(decode_ticket(flipped(ticket_registers, bit)).is_ok()) << bit;
+        EXPECT_FALSE(decode<WireTicket>(flipped(ticket_registers, bit)).is_ok()) << bit;
         const bool is_bad_reason = bit / 16 == 98;  // the one register that no checksum covers
-        EXPECT_EQ(decode_status(flipped(status_registers, bit)).is_ok(), is_bad_reason) << bit;
+        EXPECT_EQ(decode<Status>(flipped(status_registers, bit)).is_ok(), is_bad_reason) << bit;
     }
 }
 
 TEST(Codec, ABlockThatIsNotRightIsNamed) {
     Registers registers = status_registers;
     registers[0] = 0x4351;
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::magic);
     registers = status_registers;
     registers[1] = 0x0200;
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::version);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::version);
     registers = status_registers;
     registers[99] = 0x0103;
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::torn);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::torn);
     registers = status_registers;
     registers[40] = 0;
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::crc);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::crc);
     registers.pop_back();
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::length);
-    EXPECT_EQ(decode_status(Registers(100, 0)).fault, BlockFault::empty);
-    EXPECT_EQ(decode_command(Registers(60, 0)).fault, BlockFault::empty);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::length);
+    EXPECT_EQ(decode<Status>(Registers(100, 0)).fault, BlockFault::empty);
+    EXPECT_EQ(decode<Command>(Registers(60, 0)).fault, BlockFault::empty);
     // A gateway that swaps the registers of a pair.
     registers = status_registers;
     for (std::size_t i = 0; i + 1 < registers.size(); i += 2) std::swap(registers[i], registers[i + 1]);
-    EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
+    EXPECT_EQ(decode<Status>(registers).fault, BlockFault::magic);
 }
 
 // A later version may publish something there, and a cell has to refuse what asks for it.
@@ -252,45 +260,45 @@ TEST(Codec, ReservedRegistersOfACellAreIgnoredAndThoseOfADispatcherAreFound) {
         return registers;
     };
     const Identity identity{map_version, {4}, 1, 2, 3, 5, 1};
-    EXPECT_EQ(decode_identity(with_crc(encode(identity), 21, 22)).value, identity);
+    EXPECT_EQ(decode<Identity>(with_crc(encode(identity), 21, 22)).value, identity);
     ResultRecord result;
     result.starts = 1;
     result.query_seq = 6;
-    EXPECT_EQ(decode_result(with_crc(encode(result), 50, 58)).value, result);
+    EXPECT_EQ(decode<ResultRecord>(with_crc(encode(result), 50, 58)).value, result);
     const Registers command = encode(a_command());
-    EXPECT_EQ(used_reserved_of_command(command), std::nullopt);
+    EXPECT_EQ(used_reserved<Command>(command), std::nullopt);
     for (const std::size_t at : {7U, 40U, 57U}) {
         const Registers changed = with_crc(command, at, 58);
-        EXPECT_TRUE(decode_command(changed).is_ok());
-        EXPECT_EQ(used_reserved_of_command(changed), at);
+        EXPECT_TRUE(decode<Command>(changed).is_ok());
+        EXPECT_EQ(used_reserved<Command>(changed), at);
     }
     Registers ticket(100, 0);
-    EXPECT_EQ(used_reserved_of_ticket(ticket), std::nullopt);
+    EXPECT_EQ(used_reserved<WireTicket>(ticket), std::nullopt);
     ticket[97] = 1;
-    EXPECT_EQ(used_reserved_of_ticket(ticket), 197);
+    EXPECT_EQ(used_reserved<WireTicket>(ticket), 197);
     ticket[92] = 1;
-    EXPECT_EQ(used_reserved_of_ticket(ticket), 192);
+    EXPECT_EQ(used_reserved<WireTicket>(ticket), 192);
 }
 
 TEST(Codec, ANewerMinorVersionIsTaken) {
     Status status = a_status();
     status.version = 0x0107;
-    EXPECT_TRUE(decode_status(encode(status)).is_ok());
+    EXPECT_TRUE(decode<Status>(encode(status)).is_ok());
 }
 
 TEST(Codec, AnOlderMinorVersionIsRefused) {
     Status status = a_status();
     status.version = 0x0100;
-    EXPECT_EQ(decode_status(encode(status)).fault, BlockFault::version);
-    EXPECT_EQ(decode_identity(encode(Identity{0x0100, {4}, 1, 2, 3, 5, 1})).fault, BlockFault::version);
+    EXPECT_EQ(decode<Status>(encode(status)).fault, BlockFault::version);
+    EXPECT_EQ(decode<Identity>(encode(Identity{0x0100, {4}, 1, 2, 3, 5, 1})).fault, BlockFault::version);
     EXPECT_EQ(encode(a_command())[1], 0x0100) << "COMMAND has a version of its own";
-    EXPECT_TRUE(decode_command(encode(a_command())).is_ok());
+    EXPECT_TRUE(decode<Command>(encode(a_command())).is_ok());
 }
 
 TEST(Codec, AnUndividedJobHasZerosForItsPart) {
-    TicketOrder order = an_order();
-    order.part = order.parts = 0;
-    const Registers ticket = encode(wire_ticket(a_ticket(), order));
+    JobTicket whole = a_ticket();
+    whole.about.part = whole.about.parts = 0;
+    const Registers ticket = encode(wire_ticket(whole, an_order()));
     EXPECT_TRUE(is_all_zero(std::span(ticket).subspan(89, 4)));
 }
 
@@ -299,12 +307,12 @@ TEST(Codec, RandomRegistersNeverThrowAndNeverPass) {
     for (int n = 0; n < 20000; ++n) {
         Registers registers(random() % 130);
         for (std::uint16_t& value : registers) value = static_cast<std::uint16_t>(random());
-        EXPECT_FALSE(decode_status(registers).is_ok());
-        EXPECT_FALSE(decode_command(registers).is_ok());
-        EXPECT_FALSE(decode_ticket(registers).is_ok());
-        EXPECT_FALSE(decode_result(registers).is_ok());
-        EXPECT_FALSE(decode_identity(registers).is_ok());
-        const Decoded<Chunk> chunk = decode_chunk(registers);
+        EXPECT_FALSE(decode<Status>(registers).is_ok());
+        EXPECT_FALSE(decode<Command>(registers).is_ok());
+        EXPECT_FALSE(decode<WireTicket>(registers).is_ok());
+        EXPECT_FALSE(decode<ResultRecord>(registers).is_ok());
+        EXPECT_FALSE(decode<Identity>(registers).is_ok());
+        const Decoded<Chunk> chunk = decode<Chunk>(registers);
         EXPECT_TRUE(!chunk.is_ok() || registers.size() == chunk_head + (chunk.value.data.size() + 1) / 2);
     }
 }

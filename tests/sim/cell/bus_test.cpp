@@ -22,7 +22,7 @@ TEST(Bus, ReadsTheStatusOfTheCell) {
     const Link link;
     const BusAnswer answer = link.bus->read_input(status_block.base, status_block.count);
     ASSERT_TRUE(answer.is_ok()) << answer.why;
-    const Decoded<Status> status = decode_status(answer.registers);
+    const Decoded<Status> status = decode<Status>(answer.registers);
     ASSERT_TRUE(status.is_ok());
     EXPECT_EQ(status.value.cell_id, any_cell_id);
     EXPECT_TRUE(status.value.has(flag::simulated));

@@ -43,7 +43,7 @@ Decoded<Status> read_status(Bench& bench) {
     for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
         registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8 | bytes[i + 1]));
     }
-    return decode_status(registers);
+    return decode<Status>(registers);
 }
 
 TEST(Faults, EachHasOneNameAndStandsAtItsPlace) {

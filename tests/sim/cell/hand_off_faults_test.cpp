@@ -52,10 +52,10 @@ class Trial {
         ticket.file_name = "a.qjob";
         ticket.file_size = 10;
         ticket.file_sha256.bytes.fill(3);
-        TicketOrder order;
+        WireTicket order;
         order.job_id = Uuid{5, 5, 5};
         order.cell_id = any_cell_id;
-        order.simulated = true;
+        order.made_for = 1;
         plan_.ticket = wire_ticket(ticket, order);
         plan_.owner = seed + 1;
         plan_.secret = seed + 2;
@@ -157,16 +157,16 @@ class Trial {
         switch (action.kind) {
             case Kind::read_status:
                 input = request(rig::read_request(4, status_block.base, status_block.count), false, &registers);
-                if (input.end == BusEnd::ok) input.status = decode_status(registers).value;
+                if (input.end == BusEnd::ok) input.status = decode<Status>(registers).value;
                 return input;
             case Kind::read_result:
                 input = request(rig::read_request(4, result_block.base, result_block.count), false, &registers);
-                if (input.end == BusEnd::ok && decode_result(registers).is_ok())
-                    input.result = decode_result(registers).value;
+                if (input.end == BusEnd::ok && decode<ResultRecord>(registers).is_ok())
+                    input.result = decode<ResultRecord>(registers).value;
                 return input;
             case Kind::read_identity:
                 input = request(rig::read_request(4, identity_block.base, identity_block.count), false, &registers);
-                if (input.end == BusEnd::ok) input.identity = decode_identity(registers).value;
+                if (input.end == BusEnd::ok) input.identity = decode<Identity>(registers).value;
                 return input;
             case Kind::write_command:
                 return write(command_block, encode(action.command));

@@ -109,7 +109,7 @@ TEST(JournalDispatch, AJournalThatLostItsLastRowsIsNoReasonToSayNotStarted) {
         if (history.jobs[0].is_open()) {
             DispatchOptions options = rig.options;
             options.past = past_of(history, &history.jobs[0], rig.cell.status().owner_held);
-            const JobOutcome outcome = adopt_job(*bus, decode_ticket(history.jobs[0].ticket).value, options, {});
+            const JobOutcome outcome = adopt_job(*bus, decode<WireTicket>(history.jobs[0].ticket).value, options, {});
             EXPECT_EQ(outcome.start_outcome, StartOutcome::started) << kept << " rows kept: " << outcome.why;
             EXPECT_EQ(outcome.starts, 1U) << kept;
             EXPECT_LT(outcome.took_s, 5) << kept << " rows kept: no wait for an acknowledgement that cannot come";

@@ -136,7 +136,7 @@ TEST(Store, AnOlderCopyOfTheFolderIsFoundByTheMarksBesideIt) {
         CellSim cell(options);
         cell.start();
         const auto bus = rig::connect(cell);
-        return decode_identity(bus->read_input(identity_block.base, identity_block.count).registers).value.store_id;
+        return decode<Identity>(bus->read_input(identity_block.base, identity_block.count).registers).value.store_id;
     };
     const Uuid first = id();
     EXPECT_EQ(id(), first);

@@ -31,7 +31,7 @@ TEST(Pdu, AStatusReadIsTheStatus) {
     Registers registers;
     for (std::size_t i = 2; i < bytes.size(); i += 2)
         registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8 | bytes[i + 1]));
-    const Decoded<Status> status = decode_status(registers);
+    const Decoded<Status> status = decode<Status>(registers);
     ASSERT_TRUE(status.is_ok());
     EXPECT_EQ(status.value, bench.status());
 }

@@ -37,7 +37,7 @@ TEST(Peer, LibmodbusReadsTheStatus) {
     EXPECT_EQ(registers[7], 2);  // Stopped
     EXPECT_EQ(registers[13], 0xFFFF);
     EXPECT_NE(registers[9] & (1 << 9), 0);
-    EXPECT_TRUE(decode_status(std::span(registers).first(100)).is_ok());
+    EXPECT_TRUE(decode<Status>(std::span(registers).first(100)).is_ok());
 }
 
 TEST(Peer, LibmodbusClaimsTheCellWithRegistersWrittenByHand) {

@@ -13,6 +13,34 @@
 namespace qchopper {
 namespace {
 
+std::string text_of(const ArmedFault& fault) {
+    const NamedFault& row = all_faults()[static_cast<std::size_t>(fault.fault)];
+    std::string text = std::string("fault ") + row.name;
+    if (row.argument[0] != '\0') text += " " + std::to_string(fault.number);
+    text += fault.times == 0 ? " always" : " times " + std::to_string(fault.times);
+    return text + " chance " + std::to_string(fault.per_thousand / 10);
+}
+
+// The line that is parsed so.
+std::string to_text(const ScriptLine& line) {
+    for (const ActRow& row : all_choices()) {
+        if (row.act == line.act) return std::string(row.word) + " " + row.choices[line.choice];
+    }
+    const std::string number = std::to_string(line.number);
+    switch (line.act) {
+        case Act::wait:
+            return "wait " + number;
+        case Act::seed:
+            return "seed " + number.substr(0, number.find('.'));
+        case Act::fault:
+            return text_of(line.fault);
+        case Act::clear_faults:
+            return "fault clear";
+        default:
+            return line.act == Act::quit ? "quit" : "show";
+    }
+}
+
 TEST(Script, EveryLineThatIsUnderstoodPrintsBackAsTheSameLine) {
     std::vector<std::string> texts{"show", "quit", "seed 7", "fault clear", "wait 2.500000"};
     for (const ActRow& row : all_choices()) {
@@ -137,7 +165,7 @@ TEST(Script, PowerAndTheStore) {
     Cell cell(std::move(options));
     const auto identity = [&] {
         const auto bus = rig::connect(cell.sim);
-        return decode_identity(bus->read_input(identity_block.base, identity_block.count).registers).value;
+        return decode<Identity>(bus->read_input(identity_block.base, identity_block.count).registers).value;
     };
     const Identity first = identity();
     EXPECT_EQ(first.boot_count, 1U);

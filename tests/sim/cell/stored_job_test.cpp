@@ -114,8 +114,8 @@ TEST(Store, ANameWithSomethingHiddenBehindItsEndIsRefused) {
         const std::uint32_t crc = crc32_of_registers(std::span(block).first(98));
         block[98] = static_cast<std::uint16_t>(crc >> 16U);
         block[99] = static_cast<std::uint16_t>(crc & 0xFFFFU);
-        ASSERT_TRUE(decode_ticket(block).is_ok());
-        ASSERT_EQ(decode_ticket(block).value.file_name, "piece-1.qjob");
+        ASSERT_TRUE(decode<WireTicket>(block).is_ok());
+        ASSERT_EQ(decode<WireTicket>(block).value.file_name, "piece-1.qjob");
         bench.cell.ticket_draft = block;
         EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ticket_field) << behind;
         EXPECT_EQ(bench.cell.ack.detail, 128U);

@@ -1,11 +1,54 @@
-// The end of a hand-off on request, within leave_s: CANCEL and RELEASE before the start, RELEASE after it. O(1) for
-// each turn.
+// The ends of a hand-off: with the verdict that its state proves, or on request within leave_s, by CANCEL and RELEASE
+// before the start and by RELEASE after it. O(1) for each turn.
 
 #include <cassert>
 
 #include "devices/hand_off/hand_off_context.h"
 
 namespace qchopper::hand_off {
+
+HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
+                     const std::string& to_do) {
+    context.h.start_outcome = start_outcome;
+    if (context.h.why.empty()) {
+        context.h.why = why;
+        context.h.to_do = to_do;
+    }
+    context.h.why += "; " + foam(context);
+    if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, start_outcome);
+    if (start_outcome == StartOutcome::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
+    if (context.h.cancelled && start_outcome == StartOutcome::not_started && context.h.claim_sent &&
+        !context.h.is_given_back) {
+        context.h.why += "; the cell did not confirm that it dropped the job";
+        context.h.to_do = "Nothing has to be done: the cell holds no valid START for it.";
+    }
+    context.h.step = HandOffStep::finished;
+    context.report(std::string(describe(start_outcome)) + ": " + context.h.why);
+    end_request(context, "the dispatcher ended before the cell answered");
+    keep_store(context);
+    context.keep(JournalKind::closed).start_outcome = start_outcome;
+    return plain(Kind::finish);
+}
+
+HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
+    if (context.h.contradicts_itself) return finish(context, StartOutcome::unknown, why, to_do);
+    if (context.h.is_started) return finish(context, StartOutcome::started, why, to_do);
+    if (context.may_have_started()) return finish(context, StartOutcome::unknown, why, to_do);
+    return finish(context, StartOutcome::not_started, why, to_do);
+}
+
+HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do) {
+    context.h.fault = fault;
+    return give_up(context, why, to_do);
+}
+
+HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do) {
+    context.set_reason(why, to_do);
+    if (context.h.is_stored) return enter(context, HandOffStep::cancel);
+    if (context.h.claim_sent) return enter(context, HandOffStep::release);
+    return give_up(context, why, to_do);
+}
+
 namespace {
 
 std::string stop_there(const StepContext& context) {
@@ -15,7 +58,7 @@ std::string stop_there(const StepContext& context) {
 
 void set_reason_of_request(StepContext& context) {
     HandOff& h = context.h;
-    h.is_cancelled = true;
+    h.cancelled = true;
     if (context.may_have_started()) {
         h.why = h.start_sent
                     ? "stopped on request; START was sent, and the cell has not reported whether it started the job"
@@ -50,23 +93,21 @@ std::optional<HandOffAction> leave(StepContext& context) {
         return enter(context, HandOffStep::release);
     }
     if (may_have_started || h.is_started || !h.why.empty()) return std::nullopt;
-    h.is_cancelled = true;
+    h.cancelled = true;
     h.deferred.reset();
     return withdraw(context, "stopped on request before the start", "");
 }
 
 HandOffAction leave_running_job(StepContext& context) {
     HandOff& h = context.h;
-    h.is_cancelled = true;
+    h.cancelled = true;
     if (!context.plan.options.stop_when_cancelled) {
         context.set_reason("stopped monitoring on request; the job runs on by itself", stop_there(context));
         return enter(context, HandOffStep::release);
     }
     context.report("stopping the machine on request");
     h.leave_by_s += context.timings().answer_s - context.timings().leave_s;
-    h.command = Command{};
-    h.command.job_id = context.job_id();
-    return send(context, CellCommand::stop);
+    return send_new(context, CellCommand::stop, context.job_id());
 }
 
 }  // namespace qchopper::hand_off
