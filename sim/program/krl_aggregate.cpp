@@ -1,14 +1,12 @@
 // Name, number, comma, until the brace closes.
 
-#include "sim/program/krl_aggregate.h"
+#include "sim/program/krl_parts.h"
 
-#include <numbers>
 #include <string>
 
 namespace qchopper {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
 constexpr std::array<std::string_view, 13> names{"x", "y", "z", "a", "b", "c", "a1", "a2", "a3", "a4", "a5", "a6", "e"};
 
 double largest_of(std::size_t component) {
@@ -49,7 +47,7 @@ KrlAggregate read_aggregate(KrlLine& line) {
 ProgramFrame read_frame(KrlLine& line) {
     const KrlAggregate a = read_aggregate(line);
     if (a.given != krl_frame) line.refuse("X, Y, Z, A, B and C are needed, and nothing else");
-    return {position_of(a), radian * Vec3{a[KrlComponent::a], a[KrlComponent::b], a[KrlComponent::c]}};
+    return {position_of(a), krl_degree * Vec3{a[KrlComponent::a], a[KrlComponent::b], a[KrlComponent::c]}};
 }
 
 ProgramLoad read_load(KrlLine& line) {

@@ -1,15 +1,10 @@
 // A chain of names; each knows the range of its value.
 
-#include "sim/program/krl_assignment.h"
-
-#include <numbers>
-
-#include "sim/program/krl_aggregate.h"
+#include "sim/program/krl_parts.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
 constexpr double per_metre = 1000;           // mm
 constexpr double largest_speed = 3;          // m/s
 constexpr double largest_acceleration = 20;  // m/s2
@@ -29,9 +24,7 @@ double above_zero(KrlLine& line, double largest) {
 
 // [i] = percent
 void read_axis(KrlLine& line, std::array<double, 6>& shares, std::array<bool, 6>& stated) {
-    line.need('[');
-    const std::uint32_t axis = line.integer(1, 6);
-    line.need(']');
+    const std::uint32_t axis = line.index(1, 6);
     shares[axis - 1] = above_zero(line, 100) / 100;
     stated[axis - 1] = true;
 }
@@ -40,9 +33,7 @@ void read_axis(KrlLine& line, std::array<double, 6>& shares, std::array<bool, 6>
 void read_chained_base(KrlLine& line, ModalState& state) {
     const auto machine = [&](std::string_view member) {
         line.need_word("machine_def");
-        line.need('[');
-        const std::uint32_t n = line.integer(2, 7);
-        line.need(']');
+        const std::uint32_t n = line.index(2, 7);
         line.need('.');
         line.need_word(member);
         line.need(',');
@@ -72,7 +63,7 @@ void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
         stated.feed = true;
     } else if (which == "ori1" || which == "ori2") {
         const std::size_t turn = which == "ori1" ? 0 : 1;
-        state.turn_speed[turn] = radian * above_zero(line, largest_turn);
+        state.turn_speed[turn] = krl_degree * above_zero(line, largest_turn);
         stated.turn_speed[turn] = true;
     } else {
         line.refuse("$VEL." + which + " is not known");

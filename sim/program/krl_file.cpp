@@ -1,10 +1,8 @@
 // One pass over the bytes for the lines, one over the lines from both ends.
 
-#include "sim/program/krl_file.h"
+#include "sim/program/krl_parts.h"
 
 #include <algorithm>
-
-#include "sim/program/krl_line.h"
 
 namespace qchopper {
 namespace {
@@ -83,24 +81,10 @@ void find_body(KrlFile& file) {
 
 }  // namespace
 
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return lower;
-}
-
-bool is_krl_comment(std::string_view line) {
-    const std::size_t first = line.find_first_not_of(' ');
-    return first == std::string_view::npos || line[first] == ';';
-}
-
 KrlFile read_krl_file(const ProgramFile& file) {
     const std::string lower = lower_case(file.name);
     KrlFile read{&file.name, lower.substr(0, lower.find('.')), lower.ends_with(".src"), {}, 0, 0};
-    if ((!read.is_source && lower != read.stem + ".dat") || (read.is_source && lower != read.stem + ".src") ||
-        !is_name(read.stem)) {
+    if (lower != read.stem + (read.is_source ? ".src" : ".dat") || !is_name(read.stem)) {
         refuse_line(file.name, 1, "this is no name of a KRL program");
     }
     read.lines = lines_of(file);

@@ -2,7 +2,7 @@
 
 #include "sim/program/krl_line.h"
 
-#include <cctype>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -19,11 +19,18 @@ bool is_of_word(char c) {
     return is_digit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$';
 }
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower;
 }
 
-}  // namespace
+bool is_krl_comment(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(' ');
+    return first == std::string_view::npos || line[first] == ';';
+}
 
 LineRefused::LineRefused(const std::string& file_name, std::size_t line_number, const std::string& reason)
     : InputError(InputFault::mesh, "program " + file_name + ", line " + std::to_string(line_number) + ": " + reason,
@@ -42,12 +49,10 @@ void KrlLine::pass_space() {
 
 std::string KrlLine::word() {
     pass_space();
-    std::string found;
-    if (!rest_.empty() && is_digit(rest_.front())) return found;
-    while (!rest_.empty() && is_of_word(rest_.front())) {
-        found += lower(rest_.front());
-        rest_.remove_prefix(1);
-    }
+    if (!rest_.empty() && is_digit(rest_.front())) return {};
+    const auto length = std::find_if_not(rest_.begin(), rest_.end(), is_of_word) - rest_.begin();
+    const std::string found = lower_case(rest_.substr(0, static_cast<std::size_t>(length)));
+    rest_.remove_prefix(found.size());
     return found;
 }
 
@@ -100,13 +105,16 @@ std::uint32_t KrlLine::integer(std::uint32_t least, std::uint32_t largest) {
     return static_cast<std::uint32_t>(value);
 }
 
-bool KrlLine::at_end() {
-    pass_space();
-    return rest_.empty();
+std::uint32_t KrlLine::index(std::uint32_t least, std::uint32_t largest) {
+    need('[');
+    const std::uint32_t value = integer(least, largest);
+    need(']');
+    return value;
 }
 
 void KrlLine::need_end() {
-    if (!at_end()) refuse("\"" + std::string(rest_.substr(0, 20)) + "\" is not expected here");
+    pass_space();
+    if (!rest_.empty()) refuse("\"" + std::string(rest_.substr(0, 20)) + "\" is not expected here");
 }
 
 }  // namespace qchopper

@@ -13,6 +13,12 @@
 
 namespace qchopper {
 
+// Letters A-Z made small.
+std::string lower_case(std::string_view text);
+
+// Whether a line says nothing: it is empty or a comment.
+bool is_krl_comment(std::string_view line);
+
 // Of kind mesh; its message names file and line too.
 class LineRefused : public InputError {
  public:
@@ -44,7 +50,8 @@ class KrlLine {
     // Digits with or without a point, and perhaps a minus, between these bounds. An exponent is refused.
     double number(double least, double largest);
     std::uint32_t integer(std::uint32_t least, std::uint32_t largest);
-    bool at_end();
+    // The same in brackets: "[7]".
+    std::uint32_t index(std::uint32_t least, std::uint32_t largest);
     void need_end();
     [[noreturn]] void refuse(const std::string& why) const { refuse_line(*file_, line_, why); }
 

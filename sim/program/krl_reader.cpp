@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <numbers>
 
 #include "base/error.h"
-#include "sim/program/krl_aggregate.h"
-#include "sim/program/krl_assignment.h"
-#include "sim/program/krl_file.h"
+#include "sim/program/krl_parts.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
 constexpr std::size_t max_files = 20'000;
 constexpr std::uint32_t max_outputs = 8192;
 constexpr std::uint32_t max_holes = 10'000;
@@ -200,7 +196,7 @@ void KrlExecution::take_external(const KrlLine& line, const KrlAggregate& target
     if (!target.has(KrlComponent::external)) return;
     if (external_axis_ != 0 && external_axis_ != target.external_axis) line.refuse("two external axes are named");
     external_axis_ = target.external_axis;
-    e1_ = radian * target[KrlComponent::external];
+    e1_ = krl_degree * target[KrlComponent::external];
 }
 
 void KrlExecution::check_before_ptp(const KrlLine& line) const {
@@ -228,7 +224,7 @@ void KrlExecution::read_ptp(KrlLine& line) {
     check_before_ptp(line);
     (target.has(KrlComponent::external) ? with_e1_ : without_e1_) = place_;
     ProgramStep& step = add(StepKind::joint_move);
-    for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = radian * target.value[axis + 6];
+    for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = krl_degree * target.value[axis + 6];
     take_external(line, target);
     step.e1 = e1_;
     stated_.pose = false;
@@ -261,7 +257,7 @@ void KrlExecution::read_lin(KrlLine& line) {
     rounded_ = is_rounded ? std::optional(place_) : std::nullopt;
     const bool is_full = (target.given & krl_frame) == krl_frame;
     for (std::size_t i = 0; i < 3; ++i) pose_[i] = target.value[i];
-    for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = radian * target.value[i];
+    for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = krl_degree * target.value[i];
     take_external(line, target);
     ProgramStep& step = add(StepKind::linear_move);
     step.values = pose_;
@@ -273,9 +269,7 @@ void KrlExecution::read_lin(KrlLine& line) {
 bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
     const bool is_analog = name == "$anout";
     if (!is_analog && name != "$out") return false;
-    line.need('[');
-    const std::uint32_t number = line.integer(1, is_analog ? 32 : max_outputs);
-    line.need(']');
+    const std::uint32_t number = line.index(1, is_analog ? 32 : max_outputs);
     line.need('=');
     double value = 0;
     if (is_analog) {
@@ -295,9 +289,7 @@ bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
 void KrlExecution::read_wait(KrlLine& line) {
     line.need_word("for");
     line.need_word("$in");
-    line.need('[');
-    const std::uint32_t number = line.integer(1, max_outputs);
-    line.need(']');
+    const std::uint32_t number = line.index(1, max_outputs);
     line.need_end();
     add(StepKind::wait_input).number = number;
 }

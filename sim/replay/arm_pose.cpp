@@ -7,26 +7,17 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "sim/replay/turn.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double min_gap = 1e-6;  // mm
 constexpr ArmThresholds thresholds{};
 
 const char* word_of(BodyPart part) {
-    switch (part) {
-        case BodyPart::link:
-            return "link";
-        case BodyPart::spindle:
-            return "spindle";
-        case BodyPart::holder:
-            return "holder";
-        case BodyPart::tool:
-            break;
-    }
-    return "tool";
+    constexpr const char* words[] = {"link", "spindle", "holder", "tool"};  // in the order of BodyPart
+    return words[static_cast<std::size_t>(part)];
 }
 
 }  // namespace
@@ -75,7 +66,13 @@ std::optional<Joints> ArmPoses::follow(const Pose& flange, const Joints& now) co
 }
 
 void ArmPoses::collide(const std::string& what, SourcePlace place) {
-    log_.add(FindingKind::collision, place, 0, 0, [&] { return what; });
+    log_.add(FindingKind::collision, place, what);
+}
+
+template <class Shape>
+bool ArmPoses::meets_table(const Shape& shape) const {
+    return (standing_.table && distance(shape, *standing_.table) <= min_gap) ||
+           (standing_.rotary && distance(shape, *standing_.rotary) <= min_gap);
 }
 
 void ArmPoses::check_bodies(const Joints& joints, const CuttingTool& tool, SourcePlace place) {
@@ -95,10 +92,7 @@ void ArmPoses::check_links(const MovingBodies& bodies, SourcePlace place) {
         }
         if (link.link == 0) continue;
         if (link.link > 1 && lowest(link.shape) < standing_.floor_z) collide(name + " meets the floor", place);
-        if ((standing_.table && distance(link.shape, *standing_.table) <= min_gap) ||
-            (standing_.rotary && distance(link.shape, *standing_.rotary) <= min_gap)) {
-            collide(name + " meets the table", place);
-        }
+        if (meets_table(link.shape)) collide(name + " meets the table", place);
         for (const PlacedBox& box : standing_.obstacles) {
             if (distance(link.shape, box) <= min_gap) collide(name + " meets an obstacle", place);
         }
@@ -111,12 +105,7 @@ void ArmPoses::check_axis_body(const MovingBodies& bodies, const AxisBody& body,
     if (low < standing_.floor_z) collide(name + " meets the floor", place);
     const double table_top =
         standing_.rotary ? standing_.rotary->from.z + standing_.rotary->radius * 0.02 : cell_.table.height;
-    if (low <= table_top + min_gap) {
-        if ((standing_.table && distance(body.shape, *standing_.table) <= min_gap) ||
-            (standing_.rotary && distance(body.shape, *standing_.rotary) <= min_gap)) {
-            collide(name + " meets the table", place);
-        }
-    }
+    if (low <= table_top + min_gap && meets_table(body.shape)) collide(name + " meets the table", place);
     for (const PlacedBox& box : standing_.obstacles) {
         if (distance(around(body.shape), box) <= min_gap && distance(body.shape, box) <= min_gap) {
             collide(name + " meets an obstacle", place);

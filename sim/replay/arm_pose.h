@@ -38,6 +38,8 @@ class ArmPoses {
     void check_links(const MovingBodies& bodies, SourcePlace place);
     void check_axis_body(const MovingBodies& bodies, const AxisBody& body, SourcePlace place);
     void collide(const std::string& what, SourcePlace place);
+    template <class Shape>
+    bool meets_table(const Shape& shape) const;
 
     const Cell& cell_;
     FindingLog& log_;

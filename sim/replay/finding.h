@@ -78,6 +78,10 @@ class FindingLog {
     void add(FindingKind kind, SourcePlace place, double number, double worse, const Text& text) {
         if (wants(kind, worse)) keep(kind, place, number, worse, text());
     }
+    // Of one without a number.
+    void add(FindingKind kind, SourcePlace place, const std::string& text) {
+        add(kind, place, 0, 0, [&] { return text; });
+    }
     std::size_t count(FindingKind kind) const { return kinds_[static_cast<std::size_t>(kind)].count; }
     // By kind, then in the order in which they were found.
     std::vector<Finding> findings() const;

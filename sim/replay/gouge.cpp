@@ -116,9 +116,8 @@ const SceneHole* hole_along(const TipLine& line, const ReplayScene& scene) {
 std::vector<std::array<Vec3, 2>> parts_of(const ToolPath& path, std::size_t i) {
     const TipLine& line = path.lines[i];
     std::vector<std::array<Vec3, 2>> parts{{line.from, line.to}};
-    const bool goes_on = i + 1 < path.lines.size() && path.lines[i + 1].follows_line;
-    if (line.rounding <= 0 || !goes_on) return parts;
-    const std::vector<Vec3> way = rounded_way(nullptr, line, &path.lines[i + 1]);
+    if (line.rounding <= 0 || path.after(i) == nullptr) return parts;
+    const std::vector<Vec3> way = rounded_way(nullptr, line, path.after(i));
     for (std::size_t k = 1; k + 1 < way.size(); ++k) parts.push_back({way[k], way[k + 1]});
     return parts;
 }
@@ -186,8 +185,7 @@ GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double 
             for (const auto& of_lot : hits) {
                 for (const auto& [triangle, hit] : of_lot) {
                     figures.depth[triangle] = std::max(figures.depth[triangle], hit.depth);
-                    const bool is_first = hit.depth == figures.largest && hit.line < worst;
-                    if (hit.depth < figures.largest || (hit.depth == figures.largest && !is_first)) continue;
+                    if (hit.depth < figures.largest || (hit.depth == figures.largest && hit.line >= worst)) continue;
                     figures.largest = hit.depth;
                     worst = hit.line;
                     figures.at = middle_of(corners_of(*scene.target, triangle));

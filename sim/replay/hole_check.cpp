@@ -66,7 +66,7 @@ HoleCheck::HoleCheck(const ReplayScene& scene, FindingLog& log)
 }
 
 void HoleCheck::extra(const TipLine& line, const std::string& why) {
-    log_.add(FindingKind::extra_hole, line.place, 0, 0, [&] { return "the drill goes into foam " + why; });
+    log_.add(FindingKind::extra_hole, line.place, "the drill goes into foam " + why);
 }
 
 std::optional<std::size_t> HoleCheck::hole_of(const TipLine& line) const {

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "cam/cell/reach_map.h"
-#include "sim/program/krl_file.h"
+#include "sim/program/krl_line.h"
 #include "sim/replay/arm_pose.h"
 #include "sim/replay/signal_walk.h"
 #include "sim/replay/state_check.h"
@@ -19,7 +19,6 @@
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double pose_step = 5;  // mm
 constexpr double turn_step = 2 * degree;
 constexpr double aligned_turn = 0.02 * degree;
@@ -139,10 +138,9 @@ ToolPath Walk::run(const Context& context) {
     }
     check_end({program_.chunks.back().file, program_.chunks.back().end_line});
     if (next != scene_.chunks.size()) {
-        log_.add(FindingKind::chunk_order, {}, 0, 0, [&] {
-            return "the program calls " + counted(next, "chunk") + ", the job has " +
-                   std::to_string(scene_.chunks.size());
-        });
+        log_.add(
+            FindingKind::chunk_order, {},
+            "the program calls " + counted(next, "chunk") + ", the job has " + std::to_string(scene_.chunks.size()));
     }
     return std::move(path_);
 }
@@ -154,8 +152,7 @@ void Walk::enter(const ProgramChunk& chunk) {
     const std::string stem = lower_case(program_.files[chunk.file].substr(0, program_.files[chunk.file].find('.')));
     const bool is_known = chunk_ < scene_.chunks.size() && lower_case(scene_.chunks[chunk_].name) == stem;
     if (!is_known) {
-        log_.add(FindingKind::chunk_order, place, 0, 0,
-                 [] { return "the job does not say that this chunk comes here"; });
+        log_.add(FindingKind::chunk_order, place, "the job does not say that this chunk comes here");
         chunk_ = std::min(chunk_, static_cast<std::uint32_t>(scene_.chunks.size() - 1));
         for (std::size_t i = 0; i < scene_.chunks.size(); ++i) {
             if (lower_case(scene_.chunks[i].name) == stem) chunk_ = static_cast<std::uint32_t>(i);
@@ -239,14 +236,14 @@ bool Walk::is_home(bool with_table) const {
 void Walk::check_stop(SourcePlace place) {
     signals_.check_off(FindingKind::tool_change, place, "at this stop");
     if (is_home(false)) return;
-    log_.add(FindingKind::not_home, place, 0, 0, [] { return "the arm is not at home at this stop"; });
+    log_.add(FindingKind::not_home, place, "the arm is not at home at this stop");
 }
 
 void Walk::check_end(SourcePlace place) {
     signals_.check_off(FindingKind::left_on, place, "at the end");
     if (is_home(true)) return;
-    log_.add(FindingKind::not_home, place, 0, 0,
-             [] { return "the program does not end at home, expected before: a PTP to the start of the cell file"; });
+    log_.add(FindingKind::not_home, place,
+             "the program does not end at home, expected before: a PTP to the start of the cell file");
 }
 
 TipPose Walk::tip_pose() const {
@@ -307,8 +304,8 @@ void Walk::take_joint_move(const ProgramStep& step) {
     JointSweep sweep = sweep_to(step, step.place);
     arm_.check_joints(joints_, step.place);
     if (!has_moved_ && !is_home(true)) {
-        log_.add(FindingKind::not_home, step.place, 0, 0,
-                 [] { return "the first move does not lead home, expected: a PTP to the start of the cell file"; });
+        log_.add(FindingKind::not_home, step.place,
+                 "the first move does not lead home, expected: a PTP to the start of the cell file");
     }
     has_moved_ = true;
     if (is_in_chunk_ && machine_.rotary_table) check_table(step);
@@ -395,7 +392,7 @@ void Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, 
         tip.shift = from.shift + share * (to.shift - from.shift);
         const std::optional<Joints> next = arm_.follow(tip * flange_in_tip, joints_);
         if (!next) {
-            log_.add(FindingKind::reach, step.place, 0, 0, [] { return "no joints hold the pose on this branch"; });
+            log_.add(FindingKind::reach, step.place, "no joints hold the pose on this branch");
             is_lost_ = true;
             return;
         }

@@ -10,13 +10,11 @@
 
 #include "base/text.h"
 #include "cam/cell/machine_bodies.h"
-#include "sim/program/rounded_corner.h"
 #include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double floor_gap = 2;     // mm of the spoil layer that no tool point enters
 constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
 constexpr int chords = 6;           // of a parabola
 constexpr double straight = 0.001;  // mm of deviation that needs no parabola
@@ -129,7 +127,7 @@ void StockMilling::take_line(const TipLine& line, const std::vector<Vec3>& way) 
 void StockMilling::check_bounds(const TipLine& line, const CuttingTool& tool) {
     const double low = std::min(lowest_of_tool(tool, line.from, tool_axis_of(line)),
                                 lowest_of_tool(tool, line.to, tool_axis_of(line)));
-    const double least = -scene_.spoil + floor_gap;
+    const double least = scene_.floor_z();
     const double beyond = least - low;
     if (beyond > written) {
         log_.add(FindingKind::below_floor, line.place, low, beyond,
@@ -169,14 +167,12 @@ void StockMilling::check_spindle(const TipLine& line, const CuttingTool& tool) {
     const Spindle& spindle = machine_.spindle;
     const SignalState& signals = line.signals;
     if (spindle.on && !(signals.spindle_is_on && signals.has_speed)) {
-        log_.add(FindingKind::spindle_off, line.place, 0, 0, [&] {
-            return signals.spindle_is_on ? "foam is cut before the chunk has waited for the speed of the spindle"
-                                         : "foam is cut, and the chunk has not switched the spindle on";
-        });
+        log_.add(FindingKind::spindle_off, line.place,
+                 signals.spindle_is_on ? "foam is cut before the chunk has waited for the speed of the spindle"
+                                       : "foam is cut, and the chunk has not switched the spindle on");
     }
     if (machine_.extraction && machine_.extraction->on && !signals.extraction_is_on) {
-        log_.add(FindingKind::extraction_off, line.place, 0, 0,
-                 [] { return "foam is cut, and the chunk has not switched extraction on"; });
+        log_.add(FindingKind::extraction_off, line.place, "foam is cut, and the chunk has not switched extraction on");
     }
     const double rpm = signals.rpm;
     if (!spindle.speed || (rpm >= 0.995 * tool.rpm_min && rpm <= 1.005 * tool.rpm_max)) return;
@@ -195,19 +191,15 @@ void StockMilling::check_feed(const TipLine& line, const CuttingTool& tool) {
 }
 
 void StockMilling::check_holder(const TipLine& line, const CuttingTool& tool) {
-    const auto check = [&](double radius, double above, const char* what) {
-        const double into = stock_model_.disc_contact(line.orientation, radius, above, line.from, line.to);
-        if (into <= written) return;
+    for (const AxisBody& body : bodies_on_axis(tool, machine_.spindle)) {
+        if (body.part == BodyPart::tool) continue;
+        const double into =
+            stock_model_.disc_contact(line.orientation, body.shape.radius, -body.shape.from.z, line.from, line.to);
+        if (into <= written) continue;
+        const std::string what = body.part == BodyPart::spindle ? "the spindle" : "the holder";
         log_.add(FindingKind::holder_contact, line.place, into, into,
-                 [&] { return std::string(what) + " comes " + fixed(into, 2) + " mm into the foam"; });
-    };
-    double above = tool.stick_out;
-    for (const HolderStep& step : tool.holder) {
-        check(0.5 * step.diameter, above, "the holder");
-        above += step.length;
+                 [&] { return what + " comes " + fixed(into, 2) + " mm into the foam"; });
     }
-    const Spindle& spindle = machine_.spindle;
-    if (spindle.body_radius > 0) check(spindle.body_radius, above + spindle.body_offset, "the spindle");
 }
 
 bool StockMilling::is_body_in_stock(const TipPose& pose, double from, double to, double radius) const {
@@ -237,12 +229,10 @@ bool StockMilling::is_body_in_stock(const TipPose& pose, double from, double to,
 void StockMilling::take_sweep(const JointSweep& sweep) {
     if (!sweep.is_checked_only) ++figures_.rapids;
     if (!sweep.is_checked_only) deep_way_.reset();
-    const auto find = [&](FindingKind kind, const char* what) {
-        log_.add(sweep.is_checked_only ? FindingKind::start_from_home : kind, sweep.place, 0, 0, [&] {
-            return sweep.is_checked_only
-                       ? std::string("the comment says that the start from home is free, and on it ") + what
-                       : std::string("on a joint move ") + what;
-        });
+    const auto find = [&](FindingKind kind, const std::string& what) {
+        if (!sweep.is_checked_only) return log_.add(kind, sweep.place, "on a joint move " + what);
+        log_.add(FindingKind::start_from_home, sweep.place,
+                 "the comment says that the start from home is free, and on it " + what);
     };
     const CuttingTool& tool = machine_.tools[sweep.tool];
     const Cutter& cutter = cutters_[sweep.tool];
@@ -252,34 +242,19 @@ void StockMilling::take_sweep(const JointSweep& sweep) {
         const double straight_from = cutter.shape == ToolShape::flat ? written : std::max(cutter.corner, written);
         const bool is_in = stock_model_.is_in_stock(pose.tip + written * pose.tool_axis) ||
                            is_body_in_stock(pose, straight_from, tool.stick_out, cutter.radius - written);
-        if (is_in) {
-            find(FindingKind::rapid_in_foam, "the tool goes through foam");
-            return;
-        }
+        if (is_in) return find(FindingKind::rapid_in_foam, "the tool goes through foam");
         for (const AxisBody& body : bodies) {
             if (body.part == BodyPart::tool) continue;
             if (!is_body_in_stock(pose, -body.shape.from.z, -body.shape.to.z, body.shape.radius)) continue;
-            find(FindingKind::holder_contact, "holder or spindle comes into the foam");
-            return;
+            return find(FindingKind::holder_contact, "holder or spindle comes into the foam");
         }
     }
-}
-
-const TipLine* neighbour(const ToolPath& path, std::size_t index, bool is_next) {
-    if (is_next) {
-        const bool goes_on = index + 1 < path.lines.size() && path.lines[index + 1].follows_line;
-        return goes_on ? &path.lines[index + 1] : nullptr;
-    }
-    return index > 0 && path.lines[index].follows_line ? &path.lines[index - 1] : nullptr;
 }
 
 }  // namespace
 
 std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const TipLine* after) {
     std::vector<Vec3> way;
-    const auto corner_of = [](const TipLine& a, const TipLine& b) {
-        return round_corner(a.from, a.to, b.to, a.rounding);
-    };
     const RoundedCorner first = before != nullptr ? corner_of(*before, line) : RoundedCorner{};
     way.push_back(before != nullptr && first.deviation > straight ? first.after : line.from);
     if (after == nullptr || line.rounding <= 0) {
@@ -310,8 +285,7 @@ MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const R
         }
         const TipLine& line = path.lines[part.index];
         if (is_worst) {
-            milling.take_line(line,
-                              rounded_way(neighbour(path, part.index, false), line, neighbour(path, part.index, true)));
+            milling.take_line(line, rounded_way(path.before(part.index), line, path.after(part.index)));
         } else {
             milling.take_line(line, {line.from, line.to});
         }

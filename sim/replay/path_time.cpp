@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/program/rounded_corner.h"
-
 namespace qchopper {
 namespace {
 
@@ -24,13 +22,14 @@ PathTime time_of(const ToolPath& path) {
     const std::size_t count = path.lines.size();
     std::vector<double> end_speed(count + 1, 0);  // at the end of line i
     const auto length = [&](std::size_t i) { return norm(path.lines[i].to - path.lines[i].from); };
-    for (std::size_t i = 0; i + 1 < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const TipLine& a = path.lines[i];
-        const TipLine& b = path.lines[i + 1];
-        if (!b.follows_line || a.rounding <= 0) continue;
-        const RoundedCorner corner = round_corner(a.from, a.to, b.to, a.rounding);
+        const TipLine* const b = path.after(i);
+        if (b == nullptr || a.rounding <= 0) continue;
+        const RoundedCorner corner = corner_of(a, *b);
         if (corner.a <= 0) continue;
-        end_speed[i] = std::min({a.feed, b.feed, std::sqrt(std::min(a.acceleration, b.acceleration) * corner.radius)});
+        const double acceleration = std::min(a.acceleration, b->acceleration);
+        end_speed[i] = std::min({a.feed, b->feed, std::sqrt(acceleration * corner.radius)});
     }
     const auto start_speed = [&](std::size_t i) { return i > 0 && path.lines[i].follows_line ? end_speed[i - 1] : 0; };
     for (std::size_t i = 0; i < count; ++i) {

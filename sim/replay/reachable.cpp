@@ -9,14 +9,15 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "cam/cell/machine_bodies.h"
 #include "sim/replay/stock/cutter.h"
+#include "sim/replay/stock/dexel_map.h"
 #include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
 
 constexpr float nothing = -1e30F;
-constexpr double floor_gap = 2;  // mm of the spoil layer that no tool point enters
 constexpr double holder_cell = 2;
 
 void raise(SurfaceMap& map, Vec3 p) {
@@ -67,7 +68,7 @@ SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, dou
     for (const Vec3 p : points) raise(map, p);
     constexpr double wide = 1e5;
     std::array<Vec3, 4> floor{Vec3{-wide, -wide, 0}, Vec3{wide, -wide, 0}, Vec3{wide, wide, 0}, Vec3{-wide, wide, 0}};
-    for (Vec3& p : floor) p = apply_inverse(map.frame_in_setup, p + Vec3{0, 0, -scene.spoil + floor_gap});
+    for (Vec3& p : floor) p = apply_inverse(map.frame_in_setup, p + Vec3{0, 0, scene.floor_z()});
     rasterise(map, {floor[0], floor[1], floor[2]});
     rasterise(map, {floor[0], floor[2], floor[3]});
     return map;
@@ -122,9 +123,9 @@ struct BodyDisc {
 
 std::vector<BodyDisc> discs_of(const CuttingTool& tool, const Spindle& spindle) {
     std::vector<BodyDisc> discs;
-    double above = tool.stick_out;
-    for (const HolderStep& step : tool.holder) discs.push_back({0.5 * step.diameter, above}), above += step.length;
-    if (spindle.body_radius > 0) discs.push_back({spindle.body_radius, above + spindle.body_offset});
+    for (const AxisBody& body : bodies_on_axis(tool, spindle)) {
+        if (body.part != BodyPart::tool) discs.push_back({body.shape.radius, -body.shape.from.z});
+    }
     return discs;
 }
 
@@ -181,24 +182,10 @@ double SurfaceMap::at(double x, double y) const {
 }
 
 double SurfaceMap::distance_above(Vec3 point, double most) const {
-    double best = most;
-    const auto i0 = static_cast<std::int32_t>(std::floor((point.x - x_min) / cell));
-    const auto j0 = static_cast<std::int32_t>(std::floor((point.y - y_min) / cell));
-    const auto look = [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || j < 0 || i >= columns || j >= rows) return;
-        const double dx = x_min + (i + 0.5) * cell - point.x;
-        const double dy = y_min + (j + 0.5) * cell - point.y;
-        const double dz = std::max(0.0, height[static_cast<std::size_t>(j) * columns + i] - point.z);
-        best = std::min(best, std::sqrt(dx * dx + dy * dy + dz * dz));
-    };
-    for (std::int32_t ring = 0; ring <= static_cast<std::int32_t>(best / cell + 1); ++ring) {
-        for (std::int32_t k = -ring; k <= ring; ++k) {
-            look(i0 + k, j0 - ring);
-            if (ring > 0) look(i0 + k, j0 + ring);
-            if (k > -ring && k < ring) look(i0 - ring, j0 + k), look(i0 + ring, j0 + k);
-        }
-    }
-    return best;
+    return distance_to_cells(point, x_min, y_min, cell, most, [&](std::int32_t i, std::int32_t j) {
+        if (i < 0 || j < 0 || i >= columns || j >= rows) return std::numeric_limits<float>::infinity();
+        return height[static_cast<std::size_t>(j) * columns + i];
+    });
 }
 
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,

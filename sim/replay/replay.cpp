@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "sim/program/rounded_corner.h"
 #include "sim/replay/gouge.h"
 #include "sim/replay/machine_walk.h"
 #include "sim/replay/reachable.h"
@@ -23,14 +22,14 @@ void check_scene(const ReplayScene& scene) {
            "the cell file describes no robot");
     demand(!scene.orientations.empty(), "the job has no direction");
     demand(!scene.chunks.empty(), "the job names no program");
-    const auto& tools = scene.cell->machine->tools;
+    const auto has_tool = [&](std::uint16_t number) {
+        return std::ranges::count(scene.cell->machine->tools, number, &CuttingTool::number) > 0;
+    };
     for (const std::uint16_t number : scene.tools) {
-        demand(std::any_of(tools.begin(), tools.end(), [&](const CuttingTool& t) { return t.number == number; }),
-               "a tool that the operator allows is not in the cell file");
+        demand(has_tool(number), "a tool that the operator allows is not in the cell file");
     }
     for (const SceneChunk& chunk : scene.chunks) {
-        demand(std::any_of(tools.begin(), tools.end(), [&](const CuttingTool& t) { return t.number == chunk.tool; }),
-               "a tool of the job is not in the cell file");
+        demand(has_tool(chunk.tool), "a tool of the job is not in the cell file");
         demand(chunk.orientation < scene.orientations.size(), "a direction of the job is not there");
     }
     const Vec3 size = scene.block.size();
@@ -42,10 +41,10 @@ void check_scene(const ReplayScene& scene) {
 
 double largest_rounding(const ToolPath& path) {
     double largest = 0;
-    for (std::size_t i = 0; i + 1 < path.lines.size(); ++i) {
-        const TipLine& line = path.lines[i];
-        if (line.rounding <= 0 || !path.lines[i + 1].follows_line) continue;
-        largest = std::max(largest, round_corner(line.from, line.to, path.lines[i + 1].to, line.rounding).deviation);
+    for (std::size_t i = 0; i < path.lines.size(); ++i) {
+        const TipLine* const next = path.after(i);
+        if (next == nullptr || path.lines[i].rounding <= 0) continue;
+        largest = std::max(largest, corner_of(path.lines[i], *next).deviation);
     }
     return largest;
 }
@@ -95,11 +94,6 @@ void judge_leftover(const ReplayReport& report, const ReplayOptions& options, Fi
     }
 }
 
-void judge_cuts(const ReplayReport& report, FindingLog& log) {
-    if (report.milling.cuts > 0) return;
-    log.add(FindingKind::no_cut, {}, 0, 0, [] { return "the program removes nothing"; });
-}
-
 double largest_radius(const ReplayScene& scene) {
     double radius = 0;
     for (const StockTool& used : used_tools(scene)) {
@@ -146,7 +140,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     judge_gouge(report, options, log);
     if (scene.is_last) judge_given_up(report, options, log);
     if (scene.is_last) judge_leftover(report, options, log);
-    judge_cuts(report, log);
+    if (report.milling.cuts == 0) log.add(FindingKind::no_cut, {}, "the program removes nothing");
     if (!scene.is_last) {
         report.left = stock_model.record();
         report.left.tools = used_tools(scene);

@@ -61,6 +61,9 @@ struct ReplayScene {
     std::vector<SceneHole> holes = {};  // all of the piece
     // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
     std::vector<std::uint16_t> tools = {};
+
+    // Below it no tool point may be: 2 mm of the spoil layer stay whole.
+    double floor_z() const { return -spoil + 2; }
 };
 
 }  // namespace qchopper

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "sim/program/krl_file.h"
+#include "sim/program/krl_line.h"
 
 namespace qchopper {
 namespace {
@@ -123,9 +123,7 @@ void SignalWalk::refuse(const ProgramStep& step, const std::string& what) const 
 
 void SignalWalk::check_off(FindingKind kind, SourcePlace place, const std::string& when) const {
     const auto check = [&](bool is_on, const char* what, const std::string& line) {
-        if (!is_on) return;
-        log_.add(kind, place, 0, 0,
-                 [&] { return std::string(what) + " is still on " + when + ", expected before: " + line; });
+        if (is_on) log_.add(kind, place, std::string(what) + " is still on " + when + ", expected before: " + line);
     };
     check(now_.spindle_is_on, "the spindle", off_line(machine_.spindle.on, machine_.spindle.off));
     check(now_.extraction_is_on, "extraction", off_line(extraction_on(machine_), extraction_off(machine_)));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/text.h"
 #include "sim/replay/carried_load.h"
@@ -14,7 +13,6 @@
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double frame_mm = 0.01;  // of $TOOL and $BASE
 constexpr double frame_turn = 0.01 * degree;
 constexpr double written = 1.001;  // what rounding of a value may do to a limit

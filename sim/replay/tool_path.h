@@ -10,6 +10,7 @@
 
 #include "base/vec3.h"
 #include "sim/program/parsed_program.h"
+#include "sim/program/rounded_corner.h"
 
 namespace qchopper {
 
@@ -63,6 +64,17 @@ struct ToolPath {
     std::vector<TipLine> lines;
     std::vector<JointSweep> sweeps;
     std::vector<PathPart> order;
+
+    // The line that ends where line i begins, and the one that begins where it ends; nullptr: there is none.
+    const TipLine* before(std::size_t i) const { return i > 0 && lines[i].follows_line ? &lines[i - 1] : nullptr; }
+    const TipLine* after(std::size_t i) const {
+        return i + 1 < lines.size() && lines[i + 1].follows_line ? &lines[i + 1] : nullptr;
+    }
 };
+
+// The corner between two lines of which one goes on where the other ends.
+inline RoundedCorner corner_of(const TipLine& line, const TipLine& next) {
+    return round_corner(line.from, line.to, next.to, line.rounding);
+}
 
 }  // namespace qchopper

@@ -4,10 +4,14 @@
 
 #pragma once
 
+#include <numbers>
+
 #include "base/pose.h"
 #include "sim/program/parsed_program.h"
 
 namespace qchopper {
+
+constexpr double degree = std::numbers::pi / 180;  // radians
 
 Pose pose_of(const ProgramFrame& frame);
 

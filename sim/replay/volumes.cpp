@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 #include "sim/replay/hole_check.h"
 #include "sim/replay/reachable.h"
@@ -32,9 +33,7 @@ struct LineHeight {
 };
 
 Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
-    const std::vector<Vec3>& points = scene.target->points;
-    Box box{points.front(), points.front()};
-    for (const Vec3 p : points) extend(box, p);
+    const Box box = bounds(*scene.target);
     const Vec3 least{std::max(box.min.x - options.around, scene.block.min.x),
                      std::max(box.min.y - options.around, scene.block.min.y), 0};
     const Vec3 most{std::min(box.max.x + options.around, scene.block.max.x),

@@ -178,29 +178,12 @@ double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& 
 
 double DexelMap::distance_to_removed(Vec3 point, double most) const {
     constexpr auto side = DexelTile::side;
-    double best = most;
-    const auto ring_of = [&](double distance) { return static_cast<std::int32_t>(distance / cell_ + 1); };
-    const auto i0 = static_cast<std::int32_t>(std::floor((point.x - x_min_) / cell_));
-    const auto j0 = static_cast<std::int32_t>(std::floor((point.y - y_min_) / cell_));
-    const auto look = [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || j < 0 || i >= tiles_x_ * side || j >= tiles_y_ * side) return;
-        const DexelTile* here = tile(i / side, j / side);
-        if (here == nullptr) return;
-        const float cut = here->cut[static_cast<std::size_t>(j % side) * side + static_cast<std::size_t>(i % side)];
-        if (std::isinf(cut)) return;
-        const double dx = centre_x(i) - point.x;
-        const double dy = centre_y(j) - point.y;
-        const double dz = std::max(0.0, cut - point.z);
-        best = std::min(best, std::sqrt(dx * dx + dy * dy + dz * dz));
-    };
-    for (std::int32_t ring = 0; ring <= ring_of(best); ++ring) {
-        for (std::int32_t k = -ring; k <= ring; ++k) {
-            look(i0 + k, j0 - ring);
-            if (ring > 0) look(i0 + k, j0 + ring);
-            if (k > -ring && k < ring) look(i0 - ring, j0 + k), look(i0 + ring, j0 + k);
-        }
-    }
-    return best;
+    return distance_to_cells(point, x_min_, y_min_, cell_, most, [&](std::int32_t i, std::int32_t j) {
+        const bool is_in = i >= 0 && j >= 0 && i < tiles_x_ * side && j < tiles_y_ * side;
+        const DexelTile* here = is_in ? tile(i / side, j / side) : nullptr;
+        if (here == nullptr) return std::numeric_limits<float>::infinity();
+        return here->cut[static_cast<std::size_t>(j % side) * side + static_cast<std::size_t>(i % side)];
+    });
 }
 
 }  // namespace qchopper

@@ -78,6 +78,30 @@ struct CellRange {
     std::int32_t y_end = 0;
 };
 
+// Distance from a point to the nearest of the points above the centres of square cells, at most `most`; the first cell
+// has its corner at x_min, y_min, and height_at(i, j) says where they begin: infinite where there are none. Ring by
+// ring about the point, as long as a nearer one can come.
+template <class HeightAt>
+double distance_to_cells(Vec3 point, double x_min, double y_min, double cell, double most, const HeightAt& height_at) {
+    double best = most;
+    const auto i0 = static_cast<std::int32_t>(std::floor((point.x - x_min) / cell));
+    const auto j0 = static_cast<std::int32_t>(std::floor((point.y - y_min) / cell));
+    const auto look = [&](std::int32_t i, std::int32_t j) {
+        const double dx = x_min + (i + 0.5) * cell - point.x;
+        const double dy = y_min + (j + 0.5) * cell - point.y;
+        const double dz = std::max(0.0, height_at(i, j) - point.z);
+        best = std::min(best, std::sqrt(dx * dx + dy * dy + dz * dz));
+    };
+    for (std::int32_t ring = 0; ring <= static_cast<std::int32_t>(best / cell + 1); ++ring) {
+        for (std::int32_t k = -ring; k <= ring; ++k) {
+            look(i0 + k, j0 - ring);
+            if (ring > 0) look(i0 + k, j0 + ring);
+            if (k > -ring && k < ring) look(i0 - ring, j0 + k), look(i0 + ring, j0 + k);
+        }
+    }
+    return best;
+}
+
 class DexelMap {
  public:
     DexelMap(const Box& block, Vec3 tool_axis, double cell);
