@@ -82,9 +82,7 @@ Json hole_document(const BorderLoop& hole) {
 
 Json self_intersections_document(const std::optional<SelfIntersected>& found) {
     if (!found) return {};
-    Json places = Json::array();
-    for (const Vec3& at : found->places) places.push_back(json_of(at));
-    return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", places}};
+    return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", json_of(found->places)}};
 }
 
 }  // namespace
@@ -117,8 +115,6 @@ std::vector<std::string> lines(const InspectedFile& file) {
 
 std::string document(const InspectedFile& file) {
     const Inspection& i = file.inspection;
-    Json holes = Json::array();
-    for (const BorderLoop& hole : i.holes) holes.push_back(hole_document(hole));
     const BorderLoop* const longest = i.longest_hole();
     const Judgement judgement = judge(i);
     const Json json{{"schema", "qchopper-inspect-3"},
@@ -145,7 +141,7 @@ std::string document(const InspectedFile& file) {
                     {"fragments", {{"count", i.fragments}, {"area_share", i.fragment_area_share}}},
                     {"open_components", {{"count", i.open_components}, {"area_share", i.open_component_area_share}}},
                     {"open_edges", i.open_edges},
-                    {"holes", holes},
+                    {"holes", list_of(i.holes, hole_document)},
                     {"longest_hole", longest == nullptr ? Json() : hole_document(*longest)},
                     {"non_manifold_edges", i.non_manifold},
                     {"touching_edges", i.touching},

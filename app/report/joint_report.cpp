@@ -21,9 +21,7 @@ std::string name_list(const std::vector<std::size_t>& indices, const ProjectJoin
 }
 
 Json name_json(const std::vector<std::size_t>& indices, const ProjectJoints& of) {
-    Json names = Json::array();
-    for (const std::size_t i : indices) names.push_back(of.pieces[i]);
-    return names;
+    return list_of(indices, [&](std::size_t i) { return Json(of.pieces[i]); });
 }
 
 // "8 + 6 mm"
@@ -61,17 +59,16 @@ std::string step_line(const AssemblyStep& step, std::size_t number, const Projec
 }
 
 Json joint_json(const PieceJoint& joint, const std::string& fault, const ProjectJoints& of) {
-    Json dowels = Json::array();
-    for (const Dowel& dowel : joint.dowels) {
-        dowels.push_back(
-            {{"diameter_mm", dowel.size.diameter}, {"depth_mm", dowel.size.depth}, {"point_mm", json_of(dowel.point)}});
-    }
+    const auto dowel_json = [](const Dowel& dowel) {
+        return Json{
+            {"diameter_mm", dowel.size.diameter}, {"depth_mm", dowel.size.depth}, {"point_mm", json_of(dowel.point)}};
+    };
     return {{"cut", joint.cut},
             {"below", of.pieces[joint.below]},
             {"above", of.pieces[joint.above]},
             {"area_mm2", joint.contact.area_mm2},
             {"regions", joint.contact.regions.size()},
-            {"dowels", dowels},
+            {"dowels", list_of(joint.dowels, dowel_json)},
             {"fault", fault_word(joint.fault)},
             {"note", fault}};
 }

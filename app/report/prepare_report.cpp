@@ -37,12 +37,8 @@ Json cut_json(const Cut& cut) {
             {"fragments", cut.fragments}};
 }
 
-Json advice_json(const std::vector<AccessAdvice>& advice) {
-    Json list = Json::array();
-    for (const AccessAdvice& a : advice) {
-        list.push_back({{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.remedies}});
-    }
-    return list;
+Json advice_json(const AccessAdvice& a) {
+    return {{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.remedies}};
 }
 
 // ": 3.01 % because of the holder (a longer tool ...), 0.53 % ...": the two largest parts.
@@ -86,7 +82,7 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"fits", piece.piece_setup.fits()},
             {"margins_mm", margins},
             {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
-            {"out_of_reach", advice_json(piece.advice)},
+            {"out_of_reach", list_of(piece.advice, advice_json)},
             {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
             {"program", program_json(piece)}};
 }
@@ -160,16 +156,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
 
 std::string document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
-    Json cuts = Json::array();
-    for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
-    Json verdicts = Json::array();
-    if (p.review) {
-        for (const CutReview& review : p.review->cuts) verdicts.push_back(json_of(review));
-    }
-    Json pieces = Json::array();
-    for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
-    Json fragments = Json::array();
-    for (const SolidRecord& fragment : p.fragment_list) fragments.push_back(json_of(fragment));
+    const auto piece_in_cell = [&](const PieceReport& piece) { return piece_json(piece, prepared.cell); };
     Json json{{"schema", "qchopper-prepare-4"},
               {"project", prepared.folder.string()},
               {"scan",
@@ -184,12 +171,12 @@ std::string document(const PreparedProject& prepared) {
               {"all_fit", prepared.all_fit()},
               {"max_unreachable", prepared.max_unreachable},
               {"arm_checked", prepared.cell.machine.has_value()},
-              {"cuts", cuts},
-              {"verdicts", verdicts},
-              {"pieces", pieces},
+              {"cuts", list_of(p.cuts, cut_json)},
+              {"verdicts", json_of(p.review.value_or(SetupReview()).cuts)},
+              {"pieces", list_of(prepared.pieces, piece_in_cell)},
               {"joints", joints_json(prepared.joints)},
               {"assembly", assembly_json(prepared.joints)},
-              {"fragments", fragments},
+              {"fragments", json_of(p.fragment_list)},
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};
     add_scan(json, p);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/report/report_json.h"
 #include "base/shell_word.h"
 #include "base/text.h"
 
@@ -21,11 +22,9 @@ std::size_t drilled_holes(const PieceReport& piece) {
 }
 
 Json verdict_json(const JobVerdict& verdict) {
-    Json figures = Json::object();
-    for (const ProofFigure& figure : verdict.figures) figures[figure.key] = figure.value;
     return {{"job", verdict.job},
             {"positive", verdict.is_positive},
-            {"figures", figures},
+            {"figures", figures_json(verdict)},
             {"findings", verdict.findings.size() + verdict.findings_left_out},
             {"notes", verdict.notes}};
 }
@@ -60,15 +59,19 @@ std::vector<std::string> program_warnings(const PieceReport& piece, const std::f
     return sentences;
 }
 
+Json figures_json(const ProofResult& proof) {
+    Json figures = Json::object();
+    for (const ProofFigure& figure : proof.figures) figures[figure.key] = figure.value;
+    return figures;
+}
+
 Json program_json(const PieceReport& piece) {
     if (piece.verdicts.empty()) return {{"parts", 0}, {"none_because", piece.no_program_because}};
-    Json verdicts = Json::array();
-    for (const JobVerdict& verdict : piece.verdicts) verdicts.push_back(verdict_json(verdict));
     return {{"parts", piece.verdicts.size()},
             {"proven", piece.is_proven()},
             {"time_s", piece.time_s},
             {"length_mm", piece.length_mm},
-            {"verdicts", verdicts}};
+            {"verdicts", list_of(piece.verdicts, verdict_json)}};
 }
 
 }  // namespace qchopper

@@ -17,6 +17,9 @@ std::string program_word(const PieceReport& piece);
 // What speaks against the program, and the notes of its verdict: one sentence each, which names the piece.
 std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder);
 
+// The value of each figure by its key.
+nlohmann::ordered_json figures_json(const ProofResult& proof);
+
 // Parts, proof, time and verdicts, or why there is none.
 nlohmann::ordered_json program_json(const PieceReport& piece);
 

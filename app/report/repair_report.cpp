@@ -36,20 +36,12 @@ Json one_sided_distance(const OneSidedDistance& f) {
     return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", json_of(f.at)}, {"faces_looked_at", f.triangles}};
 }
 
-Json holes(const RepairReport& r) {
-    Json all = Json::array();
-    for (const OpenHole& hole : r.left_open) {
-        all.push_back({{"edges", hole.edges}, {"centre", json_of(hole.centre)}});
-    }
-    return all;
+Json hole_json(const OpenHole& hole) {
+    return {{"edges", hole.edges}, {"centre", json_of(hole.centre)}};
 }
 
-Json steps_of(const RepairReport& r) {
-    Json all = Json::array();
-    for (const RepairStep& step : steps(r)) {
-        all.push_back({{"step", step.name}, {"count", step.count}, {"words", step.words}});
-    }
-    return all;
+Json step_json(const RepairStep& step) {
+    return {{"step", step.name}, {"count", step.count}, {"words", step.words}};
 }
 
 Json counts(const RepairReport& r) {
@@ -86,12 +78,13 @@ Json counts(const RepairReport& r) {
 
 Json resolved(const RepairReport& r) {
     if (!r.resolved) return {};
-    Json where = Json::array();
-    for (const Vec3& p : r.resolved->where_left) where.push_back(json_of(p));
-    return {{"pairs", r.resolved->pairs},   {"left", r.resolved->left},
-            {"places", r.resolved->places}, {"removed", r.resolved->removed},
-            {"added", r.resolved->added},   {"undone", r.resolving_undone},
-            {"where_left", where}};
+    return {{"pairs", r.resolved->pairs},
+            {"left", r.resolved->left},
+            {"places", r.resolved->places},
+            {"removed", r.resolved->removed},
+            {"added", r.resolved->added},
+            {"undone", r.resolving_undone},
+            {"where_left", json_of(r.resolved->where_left)}};
 }
 
 Json pen_grooves(const RepairReport& r) {
@@ -140,14 +133,14 @@ std::string document(const RepairedScan& scan, const RepairRequest& request) {
               {"faces_gone", r.faces_gone},
               {"faces_new", r.faces_new},
               {"passes", r.passes},
-              {"steps", steps_of(r)},
+              {"steps", list_of(steps(r), step_json)},
               {"counts", counts(r)},
               {"self_intersections", resolved(r)},
               {"pen_grooves", pen_grooves(r)},
               {"alpha_wrap", r.alpha_wrapped ? Json{{"alpha_mm", r.alpha_wrapped->alpha_mm},
                                                     {"offset_mm", r.alpha_wrapped->offset_mm}}
                                              : Json()},
-              {"left_open", holes(r)},
+              {"left_open", list_of(r.left_open, hole_json)},
               {"closed", r.open_edges == 0},
               {"solid", r.is_solid()},
               {"volume", r.volume}};

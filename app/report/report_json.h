@@ -17,6 +17,14 @@ Json json_of(const T& value) {
     return json;
 }
 
+// A list of what to_json makes of each value.
+template <class Range, class ToJson>
+auto list_of(const Range& values, const ToJson& to_json) {
+    auto list = decltype(to_json(*values.begin()))::array();
+    for (const auto& value : values) list.push_back(to_json(value));
+    return list;
+}
+
 // What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
 void add_scan(nlohmann::ordered_json& document, const Project& project);
 

@@ -184,12 +184,6 @@ Json proposal_json(const Proposal& p, const Project& project) {
 }
 
 Json preview_json(const Preview& p, const Project& project) {
-    Json loops = Json::array();
-    for (const auto& loop : p.outline.loops) {
-        Json points = Json::array();
-        for (const Vec3 point : loop) points.push_back(json_of(point));
-        loops.push_back(points);
-    }
     Json solids = Json::array();
     for (const SolidEvaluation& s : p.solids) {
         solids.push_back({{"side", s.above ? "above" : "below"},
@@ -200,7 +194,7 @@ Json preview_json(const Preview& p, const Project& project) {
     return {{"piece", p.piece},
             {"plane", plane_json(p.plane, project)},
             {"sections_cross", p.sections_cross},
-            {"loops", loops},
+            {"loops", json_of(p.outline.loops)},
             {"length_mm", p.outline.length_mm},
             {"box_min_mm", json_of(p.outline.box.min)},
             {"box_max_mm", json_of(p.outline.box.max)},

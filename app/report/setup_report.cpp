@@ -16,6 +16,7 @@
 #include "base/shell_word.h"
 #include "base/text.h"
 #include "cam/cell/allowed_tools.h"
+#include "cam/job/setup_fields.h"
 
 namespace qchopper {
 namespace {
@@ -117,28 +118,19 @@ std::string program_words(const PieceReport& job) {
 }
 
 Json setup_json(const Setup& setup, const Cell& cell) {
-    Json offcuts = Json::array();
-    for (const Vec3 size : setup.block.offcuts) offcuts.push_back(json_of(size));
     return {{"base_number", setup.base_number},
-            {"base_cut", setup.base ? Json(*setup.base) : Json()},
+            {"base_cut", json_of(setup.base)},
             {"base", setup.base_description},
             {"fits", check_stock_fit(setup, with_tools(cell, setup.tools)).fits()},
             {"block", cell.stock[setup.block.stock].name},
             {"block_mm", json_of(setup.block.size)},
             {"sawn", setup.block.is_sawn},
-            {"offcuts_mm", offcuts},
+            {"offcuts_mm", json_of(setup.block.offcuts)},
             {"undercut", setup.undercut},
             {"undercut_by_count", setup.undercut_by_count},
             {"tools", setup.tools.empty() ? Json() : Json(setup.tools)},
             {"workholding", workholding_json(setup)},
             {"reach", access_json(setup.access)}};
-}
-
-Json direction_json(const ToolOrientation& d) {
-    return {{"out", json_of(d.tool_axis)},
-            {"tilt_deg", d.tilt_deg},
-            {"gained_share", d.gained_share},
-            {"depth_mm", d.depth_mm}};
 }
 
 }  // namespace
@@ -158,9 +150,7 @@ std::string arm_note(const Cell& cell) {
 }
 
 nlohmann::ordered_json access_json(const SurfaceAccess& r) {
-    Json directions = Json::array();
-    for (const ToolOrientation& d : r.orientations) directions.push_back(direction_json(d));
-    Json json{{"method", r.method == AccessMethod::mapped ? "mapped" : "sampled"},
+    Json json{{"method", names_of(r.method)(r.method)},
               {"unreachable_share", r.unreachable_share()},
               {"area_mm2", r.area_mm2},
               {"hidden_mm2", r.hidden_mm2},
@@ -174,8 +164,8 @@ nlohmann::ordered_json access_json(const SurfaceAccess& r) {
               {"foam_depth_mm", r.foam_depth_mm},
               {"residue_mm3", r.rest_material_mm3},
               {"arm_checked", r.is_arm_checked},
-              {"directions", directions},
-              {"further", r.further ? direction_json(*r.further) : Json()}};
+              {"directions", json_of(r.orientations)},
+              {"further", json_of(r.further)}};
     if (r.ignored_mm2 > 0) json["ignored_mm2"] = r.ignored_mm2;
     return json;
 }
@@ -229,19 +219,18 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
 }
 
 std::string document(const SetupAnswer& answer) {
+    const auto setup_in_cell = [&](const Setup& setup) { return setup_json(setup, answer.cell); };
     Json pieces = Json::array();
     for (const PieceSetups& p : answer.pieces) {
-        Json setups = Json::array();
-        for (const Setup& setup : p.piece_setup.choice.setups) setups.push_back(setup_json(setup, answer.cell));
         Json ordered;
         if (p.order) {
-            ordered = Json{{"base", p.order->base ? Json(*p.order->base) : Json()},
-                           {"max_directions", p.order->max_directions ? Json(*p.order->max_directions) : Json()},
+            ordered = Json{{"base", json_of(p.order->base)},
+                           {"max_directions", json_of(p.order->max_directions)},
                            {"tools", p.order->tools.empty() ? Json() : Json(p.order->tools)}};
         }
         pieces.push_back({{"name", p.piece},
                           {"ordered", ordered},
-                          {"setups", setups},
+                          {"setups", list_of(p.piece_setup.choice.setups, setup_in_cell)},
                           {"work_envelope", json_of(p.piece_setup.machine_reachability)}});
     }
     Json json{{"schema", "qchopper-setup-1"},

@@ -36,12 +36,11 @@ std::vector<std::string> table(const RunTimes& times) {
 }
 
 std::string with_timings(const std::string& document, const RunTimes& times) {
-    Json stages = Json::array();
-    for (const StageTime& stage : times.stages) {
-        stages.push_back({{"name", stage.name}, {"wall_s", stage.spent.wall_s}, {"cpu_s", stage.spent.cpu_s}});
-    }
+    const auto stage_json = [](const StageTime& stage) {
+        return Json{{"name", stage.name}, {"wall_s", stage.spent.wall_s}, {"cpu_s", stage.spent.cpu_s}};
+    };
     Json json = Json::parse(document);
-    json["timings"] = {{"stages", stages},
+    json["timings"] = {{"stages", list_of(times.stages, stage_json)},
                        {"wall_s", times.whole.wall_s},
                        {"cpu_s", times.whole.cpu_s},
                        {"peak_memory_bytes", times.peak_memory_bytes}};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/program_report.h"
 #include "app/report/report_json.h"
 #include "base/text.h"
 
@@ -27,23 +28,20 @@ std::string figures_word(const JobVerdict& verdict) {
     return words;
 }
 
-Json json_of_job(const VerifiedJob& job) {
+Json finding_json(const ProofFinding& finding) {
+    return {{"kind", finding.kind}, {"file", finding.file}, {"line", finding.line}, {"text", finding.text}};
+}
+
+Json job_json(const VerifiedJob& job) {
     const JobVerdict& v = job.verdict;
-    Json figures = Json::object();
-    for (const ProofFigure& figure : v.figures) figures[figure.key] = figure.value;
-    Json findings = Json::array();
-    for (const ProofFinding& finding : v.findings) {
-        findings.push_back(
-            {{"kind", finding.kind}, {"file", finding.file}, {"line", finding.line}, {"text", finding.text}});
-    }
     return {{"piece", v.piece},
             {"job", job.file.string()},
             {"sha256", to_hex(v.job_sha256)},
             {"cell", v.cell},
             {"cell_sha256", to_hex(v.cell_sha256)},
             {"positive", v.is_positive},
-            {"figures", figures},
-            {"findings", findings},
+            {"figures", figures_json(v)},
+            {"findings", list_of(v.findings, finding_json)},
             {"findings_left_out", v.findings_left_out},
             {"notes", v.notes},
             {"verdict", verdict_file(job.file).string()}};
@@ -79,9 +77,9 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
 }
 
 std::string document(const VerifyAnswer& answer) {
-    Json jobs = Json::array();
-    for (const VerifiedJob& job : answer) jobs.push_back(json_of_job(job));
-    return text_of({{"schema", "qchopper-verify-1"}, {"all_positive", is_all_positive(answer)}, {"jobs", jobs}});
+    return text_of({{"schema", "qchopper-verify-1"},
+                    {"all_positive", is_all_positive(answer)},
+                    {"jobs", list_of(answer, job_json)}});
 }
 
 }  // namespace qchopper

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/enum_names.h"
 #include "base/error.h"
 #include "base/json_fields.h"
 #include "cam/job/cap_document.h"
@@ -36,18 +35,6 @@ std::optional<std::vector<T>> null_if_empty(const std::vector<T>& values) {
 }
 
 }  // namespace
-
-constexpr auto names_of(AccessMethod) {
-    return EnumNames<AccessMethod, 2>{{{AccessMethod::sampled, "sampled"}, {AccessMethod::mapped, "mapped"}}};
-}
-
-template <class V, Of<ToolOrientation> T>
-void fields(V& v, T& orientation) {
-    v("out", orientation.tool_axis, is_direction);
-    v("tilt_deg", orientation.tilt_deg);
-    v("gained_share", orientation.gained_share);
-    v("depth_mm", orientation.depth_mm);
-}
 
 template <class V, Of<SurfaceAccess> T>
 void fields(V& v, T& access) {

@@ -5,11 +5,25 @@
 
 #pragma once
 
+#include "base/enum_names.h"
 #include "base/json_fields.h"
 #include "cam/setup/block_placement.h"
+#include "cam/setup/surface_access.h"
 #include "cam/setup/workholding.h"
 
 namespace qchopper {
+
+constexpr auto names_of(AccessMethod) {
+    return EnumNames<AccessMethod, 2>{{{AccessMethod::sampled, "sampled"}, {AccessMethod::mapped, "mapped"}}};
+}
+
+template <class V, Of<ToolOrientation> T>
+void fields(V& v, T& orientation) {
+    v("out", orientation.tool_axis, json_values::is_direction);
+    v("tilt_deg", orientation.tilt_deg);
+    v("gained_share", orientation.gained_share);
+    v("depth_mm", orientation.depth_mm);
+}
 
 template <class V, Of<BlockPlacement> T>
 void fields(V& v, T& placement) {

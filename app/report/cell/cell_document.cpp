@@ -28,13 +28,6 @@ Json pose_json(const Pose& pose) {
             {"rotation", {json_of(pose.row[0]), json_of(pose.row[1]), json_of(pose.row[2])}}};
 }
 
-template <typename T, typename ToJson>
-Json list_json(const std::vector<T>& values, ToJson to_json) {
-    Json list = Json::array();
-    for (const T& value : values) list.push_back(to_json(value));
-    return list;
-}
-
 Json range_json(const AngleRange& range) {
     return {degrees(range.min), degrees(range.max)};
 }
@@ -62,7 +55,7 @@ Json robot_json(const Robot& robot) {
         {"payload_kg", robot.payload_kg},
         {"base", pose_json(robot.base_in_cell)},
         {"cable", cable},
-        {"capsules", list_json(robot.capsules, [](const LinkCapsule& capsule) {
+        {"capsules", list_of(robot.capsules, [](const LinkCapsule& capsule) {
              return Json{{"link", capsule.link},
                          {"from", json_of(capsule.from)},
                          {"to", json_of(capsule.to)},
@@ -113,7 +106,7 @@ Json machine_json(const CellMachine& machine, const Margins& margins) {
     return {{"robot", machine.robot ? robot_json(*machine.robot) : Json()},
             {"rotary_table", machine.rotary_table ? rotary_table_json(*machine.rotary_table) : Json()},
             {"spindle", spindle_json(machine.spindle)},
-            {"tools", list_json(machine.tools, tool_json)},
+            {"tools", list_of(machine.tools, tool_json)},
             {"max_tilt_deg", degrees(machine.max_tilt)},
             {"max_unreachable", machine.max_unreachable},
             {"margin", margins_json(margins)},
@@ -121,12 +114,12 @@ Json machine_json(const CellMachine& machine, const Margins& margins) {
              {{"cutting_force_n", machine.holding.cutting_force},
               {"strength", machine.holding.strength},
               {"max_slenderness", machine.holding.max_slenderness}}},
-            {"obstacles", list_json(machine.obstacles,
-                                    [](const Obstacle& obstacle) {
-                                        Json json{{"name", obstacle.name}};
-                                        json.update(box_json(obstacle.box));
-                                        return json;
-                                    })},
+            {"obstacles", list_of(machine.obstacles,
+                                  [](const Obstacle& obstacle) {
+                                      Json json{{"name", obstacle.name}};
+                                      json.update(box_json(obstacle.box));
+                                      return json;
+                                  })},
             {"start", start_json(machine)},
             {"program",
              {{"dialect", to_word(machine.program.dialect)},
@@ -168,7 +161,7 @@ Json listed_json(const ListedCell& row) {
 }  // namespace
 
 std::string document(const std::vector<ListedCell>& cells) {
-    return text_of({{"schema", "qchopper-cells-1"}, {"cells", list_json(cells, listed_json)}});
+    return text_of({{"schema", "qchopper-cells-1"}, {"cells", list_of(cells, listed_json)}});
 }
 
 std::string document(const ShownCell& shown) {
@@ -185,7 +178,7 @@ std::string document(const ShownCell& shown) {
                    {"height", cell.table.height}}},
                  {"clearance", cell.clearance},
                  {"stock_margin", cell.stock_margin()},
-                 {"stock", list_json(cell.stock, stock_json)},
+                 {"stock", list_of(cell.stock, stock_json)},
                  {"tool", {{"number", cell.tool.number}, {"name", cell.tool.name}, {"diameter", cell.tool.diameter}}},
                  {"machine", cell.machine ? machine_json(*cell.machine, cell.margins) : Json()}};
     if (!cell.machine) json["margin"] = margins_json(cell.margins);
@@ -200,13 +193,13 @@ std::string document(const PlacesInCell& places) {
                     {"block_mm", json_of(map.block)},
                     {"tilt_deg", degrees(map.tilt)},
                     {"step_mm", map.step},
-                    {"places", list_json(map.places,
-                                         [](const BlockPlace& place) {
-                                             return Json{{"x", place.x},
-                                                         {"y", place.y},
-                                                         {"on_table", place.is_on_table},
-                                                         {"margin", place.margin ? Json(*place.margin) : Json()}};
-                                         })},
+                    {"places", list_of(map.places,
+                                       [](const BlockPlace& place) {
+                                           return Json{{"x", place.x},
+                                                       {"y", place.y},
+                                                       {"on_table", place.is_on_table},
+                                                       {"margin", place.margin ? Json(*place.margin) : Json()}};
+                                       })},
                     {"best", json_of(map.best)}});
 }
 
@@ -214,7 +207,7 @@ std::string document(const CheckedCell& checked) {
     return text_of({{"schema", "qchopper-cell-check-1"},
                     {"file", checked.file},
                     {"version", version},
-                    {"uncertain", list_json(checked.check.uncertain, origin_json)},
+                    {"uncertain", list_of(checked.check.uncertain, origin_json)},
                     {"missing", checked.check.missing},
                     {"against_dispatch", checked.check.against_dispatch},
                     {"may_be_dispatched", checked.check.may_be_dispatched()}});
