@@ -220,13 +220,13 @@ bool is_list(const Json& json) {
     return json.is_array();
 }
 
-void Reader::constant(const char* key, const std::string& value, const char* why) {
+void JsonReader::constant(const char* key, const std::string& value, const char* why) {
     std::string stated;
     (*this)(key, stated);
     check(stated == value, key, why);
 }
 
-void Reader::version(const char* key, std::uint64_t value) {
+void JsonReader::version(const char* key, std::uint64_t value) {
     std::uint64_t stated = 0;
     (*this)(key, stated);
     if (stated == value) return;

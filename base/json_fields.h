@@ -10,10 +10,10 @@
 //         v.check(part.number <= part.count, "number", "is not one of 1 to count");
 //     }
 //
-// Writer and Reader visit it; structs, lists and optionals (null) follow by recursion, and values of enumerations by
-// their words: names_of(T{}) is a table like EnumNames. Keys are written in the order of the table. All of Reader
-// throws std::runtime_error "KEY why"; the caller adds the file (tests/base/json_fields_test.cpp). Only who builds JSON
-// otherwise includes the library.
+// JsonWriter and JsonReader visit it; structs, lists and optionals (null) follow by recursion, and values of
+// enumerations by their words: names_of(T{}) is a table like EnumNames. Keys are written in the order of the table. All
+// of JsonReader throws std::runtime_error "KEY why"; the caller adds the file (tests/base/json_fields_test.cpp). Only
+// who builds JSON otherwise includes the library.
 
 #pragma once
 
@@ -117,9 +117,9 @@ template <class T>
 void take(const Json& json, const std::string& key, std::vector<T>& list);
 
 // Writes one object. What only a reader needs does nothing.
-class Writer {
+class JsonWriter {
  public:
-    explicit Writer(Json& object) : object_(object) { make_object(object); }
+    explicit JsonWriter(Json& object) : object_(object) { make_object(object); }
 
     template <class T, class... Rule>
     void operator()(const char* key, const T& value, const Rule&...) {
@@ -133,7 +133,7 @@ class Writer {
     // An object that is no struct of its own: table(visitor).
     template <class Table>
     void object(const char* key, const Table& table) {
-        Writer inner(added(object_, key));
+        JsonWriter inner(added(object_, key));
         table(inner);
     }
     // What follows from other fields: compute().
@@ -159,9 +159,9 @@ class Writer {
     Json& object_;
 };
 
-class Reader {
+class JsonReader {
  public:
-    explicit Reader(const Json& object) : object_(object) {}
+    explicit JsonReader(const Json& object) : object_(object) {}
 
     // A rule gets the value and returns why it is refused, or nullptr.
     template <class T, class... Rule>
@@ -176,7 +176,7 @@ class Reader {
     }
     template <class Table>
     void object(const char* key, const Table& table) {
-        Reader inner(member(object_, key));
+        JsonReader inner(member(object_, key));
         table(inner);
         inner.finish();
     }
@@ -226,7 +226,7 @@ void put(Json& at, const T& value) {
     } else if constexpr (std::is_enum_v<T>) {
         put(at, std::string(names_of(value)(value)));
     } else {
-        Writer writer(at);
+        JsonWriter writer(at);
         fields(writer, value);
     }
 }
@@ -262,7 +262,7 @@ void take(const Json& json, const std::string& key, T& value) {
         if (!named) throw wrong(key, names_of(T{}).refusal());
         value = *named;
     } else {
-        Reader reader(json);
+        JsonReader reader(json);
         fields(reader, value);
         reader.finish();
     }

@@ -7,7 +7,7 @@
 namespace qchopper {
 
 void add_scan(nlohmann::ordered_json& document, const Project& project) {
-    json_values::Writer writer(document);
+    json_values::JsonWriter writer(document);
     writer.maybe("ignored", project.ignored);
     writer.maybe("no_cut", project.no_cut);
     writer.maybe("symmetry", project.settings.candidates.symmetry);

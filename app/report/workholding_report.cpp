@@ -16,7 +16,7 @@ std::string workholding_word(const Setup& setup) {
 nlohmann::ordered_json workholding_json(const Setup& setup) {
     if (!setup.workholding) return nullptr;
     nlohmann::ordered_json json;
-    json_values::Writer writer(json);
+    json_values::JsonWriter writer(json);
     fields(writer, *setup.workholding);
     writer("problem", workholding_problem(*setup.workholding));
     writer("remedy", workholding_remedy(*setup.workholding));

@@ -59,7 +59,7 @@ struct EnvelopeDocument {
 
 }  // namespace
 
-static void fields(Writer& v, const ReachabilityPose& pose) {
+static void fields(JsonWriter& v, const ReachabilityPose& pose) {
     const bool has_direction = pose.kind != PoseKind::home && pose.kind != PoseKind::tool_change;
     v("kind", key_of(pose.kind));
     v("direction", has_direction ? std::optional(pose.orientation + 1) : std::nullopt);
@@ -71,7 +71,7 @@ static void fields(Writer& v, const ReachabilityPose& pose) {
     v("joints_deg", pose.joints ? std::optional(rounded_degrees(*pose.joints)) : std::nullopt);
 }
 
-static void fields(Writer& v, const RegionReachability& region) {
+static void fields(JsonWriter& v, const RegionReachability& region) {
     v("direction", region.orientation + 1);
     v("poses", region.poses);
     v("holds", region.holds);
