@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 
+#include "app/engine/loop.h"
 #include "app/store/plan.h"
 #include "app/store/project_lines.h"
 #include "app/store/replay.h"
@@ -216,22 +217,13 @@ class RequestHandler {
 
     void search(const SearchRequest& request) {
         project_.set_search(rules_of(request), request.beam.value_or(project_.project().settings.beam));
-        const bool is_beam = project_.project().settings.beam > 1;
-        const auto report_kept = [&](std::size_t cuts) {
-            context_.saved(kept_cuts(cuts, project_.folder(), is_beam) + "; go on by --auto.");
-        };
-        report_kept(project_.project().cuts.size());
-        std::size_t told = project_.project().cuts.size();
-        const auto on_round = [&](const Segmentation& best) {
-            report_kept(best.cuts.size());
-            for (const std::string& line : round_lines(best.cuts, told, project_.project().settings)) {
-                context_.message((is_beam ? "best so far: " : "") + line);
-            }
-            told = best.cuts.size();
-        };
-        std::optional<TimeLimit> time_limit;
-        if (request.time_limit_s) time_limit.emplace(TimeLimit{*request.time_limit_s});
-        const SearchEnd end = project_.search(checks_, on_round, context_, time_limit);
+        LoopObserver observer;
+        observer.on_decision =
+            told_decisions(project_, "; go on by --auto.", project_.project().settings.beam > 1, context_);
+        LoopOptions options;
+        options.last = LoopStep::cut;
+        if (request.time_limit_s) options.time_limit.emplace(TimeLimit{*request.time_limit_s});
+        const SearchEnd end = *run_loop(project_, options, observer, context_).end;
         answer_.warnings = project_.segmentation().warnings;
         answer_.done = "The search ended: " + end.sentence + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished()) refuse("The stop rules do not hold.");

@@ -205,7 +205,6 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
 void OpenProject::take_over(const Segmentation& segmentation, std::optional<BeamState> beam) {
     remove_outputs(folder_, project_);
     segmentation_ = segmentation;
-    end_.reset();
     project_.end_reason.reset();
     project_.ended_because.clear();
     project_.reverted.clear();
@@ -341,57 +340,6 @@ void OpenProject::set_has_programs(bool has_programs) {
     if (has_programs == project_.has_programs) return;
     project_.has_programs = has_programs;
     save();
-}
-
-SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                              const Context& context, const std::optional<TimeLimit>& time_limit) {
-    remove_outputs(folder_, project_);
-    Segmentation working = segmentation();
-    const StageTimer stage(context, "search");
-    BeamProgress progress = beam_progress(
-        project_, working, [this]() -> const TriangleMesh& { return scan(); }, folder_ / "cache");
-    if (project_.settings.objectives.needs_structure()) set_stress(progress.root.pieces, stress());
-    release_scan();
-    const auto keep = [&](const Segmentation& best) {
-        adopt(best, progress.saved());
-        on_round(best);
-    };
-    SearchEnd end = qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
-    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
-    end_ = end;
-    if (end.is_out_of_time()) return end;
-    record_end(end);
-    write_current_pieces();
-    project_.stage = Stage::cut;
-    save();
-    return end;
-}
-
-void OpenProject::record_end(const SearchEnd& end) {
-    project_.end_reason = end.reason;
-    project_.ended_because = end.sentence;
-    project_.reverted = end.reverted;
-    if (!end.is_finished()) project_.warnings.push_back(early_end(end.sentence));
-}
-
-PreparedProject OpenProject::prepare(const std::string& program_version, const Context& context) {
-    check_cell();
-    const bool is_out_of_time = end_ && end_->is_out_of_time();
-    if (is_out_of_time) record_end(*end_);
-    if (!end_ || is_out_of_time) write_current_pieces();
-    PreparedProject prepared{folder_, {}, setups()->cell(), max_unreachable(project_, setups()->cell()), {}};
-    static_cast<void>(segmentation());
-    release_scan();
-    prepared.joints = project_joints(segmentation(), &prepared.cell, context);
-    prepared.pieces =
-        write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version, context);
-    write_sheets(folder_, project_, context);
-    write_pictures(folder_, segmentation().pieces, *setups(), context);
-    project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
-    const StageTimer stage(context, "project saved");
-    save_project(folder_, project_);
-    prepared.project = project_;
-    return prepared;
 }
 
 void OpenProject::keep_pieces_written() {

@@ -38,6 +38,9 @@ struct PreparedProject {
     bool are_programs_proven() const;
 };
 
+struct LoopObserver;
+using OnDecision = std::function<void(const Segmentation&)>;
+
 // "the stop rules do not hold: ...", the warning of a project whose search ended too early.
 std::string early_end(const std::string& sentence);
 
@@ -116,30 +119,34 @@ class OpenProject {
     // The same for all settings. Precondition: the weights stay as they are.
     void set_settings(const SearchSettings& settings);
 
-    // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
-    // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.
-    SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                     const Context& context, const std::optional<TimeLimit>& time_limit);
-
-    // After a search in a project with a cell, setups judge what it made. With the weight `unreachable` a cut of which
-    // the pieces can be milled better along another plane is replaced (review_cuts.h); every cut is asked once, and
-    // saved before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of
-    // its job leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h);
-    // `on_round` is called with the segmentation after each such decision. project().end_reason then says of the final
-    // setups whether the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it.
-    // Does nothing where that is done already, or the search has not ended. Throws Cancelled.
-    std::optional<SearchEnd> judge_setups(const Context& context,
-                                          const std::function<void(const Segmentation&)>& on_round = {},
-                                          const std::optional<TimeLimit>& time_limit = std::nullopt);
-    // Whether a search has ended that setups are still judging: it does not go on before that is done.
+    // The steps of the loop, in the order in which run_loop() takes them (loop.h). `on_decision` is called with the
+    // segmentation after each decision is saved; it may be empty. Throw Cancelled; what was decided stays saved.
+    //
+    // Whether a search is to begin or to go on: none has ended yet, and setups judge none.
+    bool is_search_open() const { return project_.stage == Stage::cutting && !is_being_judged(); }
+    // Runs the search to the stop rules and writes the pieces at its end, unless time ran out.
+    SearchEnd search(const PieceChecks& checks, const OnDecision& on_decision, const Context& context,
+                     const std::optional<TimeLimit>& time_limit);
+    // Whether setups are to judge what a search made, or to go on with it: in a project with a cell whose search has
+    // ended, where surface out of reach has a weight or is limited, and once. Saves that it has begun.
+    bool begin_review();
+    // Whether it has begun and is not done.
     bool is_being_judged() const { return project_.review && !project_.review->is_done; }
+    // With the weight `unreachable` a cut of which the pieces can be milled better along another plane is replaced
+    // (review_cuts.h); every cut is asked once. Precondition of this and the next: begin_review() returned true.
+    void review_cuts(const OnDecision& on_decision, const Context& context);
+    // With the rule max_unreachable a piece of which the setup of its job leaves more out of reach is cut again on
+    // trial, by planes that setups compare (planes_by_setups.h); project().end_reason then says of the final setups
+    // whether the rules hold. Ends the review, unless time runs out. Returns the end of that cutting, if there was any.
+    std::optional<SearchEnd> cut_again(const OnDecision& on_decision, const Context& context,
+                                       const std::optional<TimeLimit>& time_limit);
+    // Writes pieces, jobs and pictures. `end` is that of the cutting before it in this run. If time ran out the stage
+    // stays Stage::cutting, so that the project can go on. Throws what check_cell throws.
+    PreparedProject write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
+                                  const LoopObserver& observer, const Context& context);
 
     // Whether jobs are written with robot programs from now on. This is no decision: undo does not take it back.
     void set_has_programs(bool has_programs);
-
-    // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
-    // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
-    PreparedProject prepare(const std::string& program_version, const Context& context);
 
     // Writes the job of one piece again, if the jobs are written, and says what it is; `piece` is an index in
     // segmentation().pieces. Throws what check_cell throws.
@@ -153,16 +160,14 @@ class OpenProject {
     void take_over(const Segmentation& segmentation, std::optional<BeamState> beam);
     // The pieces are made again, with samples or without, if that follows from them.
     void set_weights(const Weights& weights);
-    bool asks_for_review();
     void drop_unfinished_review();
     std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
-    void judge_cuts(const Context& context);
-    std::optional<SearchEnd> cut_by_setups(const Context& context,
-                                           const std::function<void(const Segmentation&)>& on_round,
+    std::optional<SearchEnd> cut_by_setups(const OnDecision& on_decision, const Context& context,
                                            const std::optional<TimeLimit>& time_limit);
     BeamProgress after_the_search(const Segmentation& segmentation);
     PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
-    void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
+    // Whether it is replaced.
+    bool judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
     void replace_cut(const Segmentation& alone, CutReview review);
     void record_end(const SearchEnd& end);
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
@@ -181,7 +186,6 @@ class OpenProject {
     std::shared_ptr<const StressedModel> stress_;
     std::unique_ptr<EvaluationCache> cache_;
     std::optional<Setups> setups_;
-    std::optional<SearchEnd> end_;  // of the last search, until something else is decided
     bool pieces_are_written_ = false;
 };
 

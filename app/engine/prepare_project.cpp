@@ -1,7 +1,8 @@
-// Search, then outputs; both are those of OpenProject.
+// The loop, with what an operator is told of it.
 
 #include "app/engine/prepare_project.h"
 
+#include "app/engine/loop.h"
 #include "app/store/project_lines.h"
 #include "base/error.h"
 #include "base/shell_word.h"
@@ -19,38 +20,28 @@ void discard(OpenProject& project, const DiscardRequest& request, const ProjectC
 }
 
 PreparedProject finish(OpenProject& project, const PrepareOptions& options, const ProjectContext& context) {
-    const auto report_kept = [&](const Segmentation& s) {
-        context.saved(kept_cuts(s.cuts.size(), project.folder()) + "; go on with: qchopper prepare " +
-                      shell_word(project.folder()) + ".");
-    };
-    report_kept(project.segmentation());
+    const bool is_empty = project.segmentation().pieces.empty();
+    LoopObserver observer;
+    observer.on_decision =
+        told_decisions(project, "; go on with: qchopper prepare " + shell_word(project.folder()) + ".", false, context);
     if (options.has_programs) project.set_has_programs(*options.has_programs);
-    if (project.segmentation().pieces.empty()) {
+    if (is_empty) {
         throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
                          "check the scan");
     }
     if (options.discard) discard(project, *options.discard, context);
-    const bool was_done = project.project().stage == Stage::done;
-    std::size_t told = project.project().cuts.size();
-    const auto on_round = [&](const Segmentation& s) {
-        report_kept(s);
-        for (const std::string& line : round_lines(s.cuts, told, project.project().settings)) context.message(line);
-        told = s.cuts.size();
+    observer.on_cut = [&, was_done = project.project().stage == Stage::done](const std::optional<SearchEnd>& end) {
+        if (end) context.warn(project.segmentation().warnings);
+        if (end && end->is_out_of_time()) {
+            context.warn({early_end(end->sentence)});
+        } else if (!was_done && !project.project().do_rules_hold()) {
+            context.warn({early_end(project.project().ended_because)});
+        }
     };
-    std::optional<SearchEnd> end;
-    std::optional<TimeLimit> time_limit;
-    if (options.time_limit_s) time_limit.emplace(TimeLimit{*options.time_limit_s});
-    if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
-        end = project.search(project.checks(), on_round, context, time_limit);
-    }
-    if (const std::optional<SearchEnd> judged = project.judge_setups(context, on_round, time_limit)) end = judged;
-    if (end) context.warn(project.segmentation().warnings);
-    if (end && end->is_out_of_time()) {
-        context.warn({early_end(end->sentence)});
-    } else if (!was_done && !project.project().do_rules_hold()) {
-        context.warn({early_end(project.project().ended_because)});
-    }
-    return project.prepare(options.program_version, context);
+    LoopOptions loop;
+    loop.program_version = options.program_version;
+    if (options.time_limit_s) loop.time_limit.emplace(TimeLimit{*options.time_limit_s});
+    return *run_loop(project, loop, observer, context).prepared;
 }
 
 }  // namespace

@@ -251,14 +251,10 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
 
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, std::span<const PieceJoint> joints,
-                                    const std::string& program_version, const Context& context) {
-    StageTimer stage(context, "setups chosen");
+                                    const std::string& program_version,
+                                    const std::function<void(const PieceReport&)>& on_job, const Context& context) {
+    StageTimer stage(context, "jobs written");
     const std::size_t count = segmentation.pieces.size();
-    context.progress("setups chosen", 0, count);
-    setups.map(segmentation.pieces, context);
-    stage.next("work envelopes judged");
-    setups.place(segmentation.pieces, context);
-    stage.next("jobs written");
     std::vector<const PlacedSetup*> piece_setups;
     for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.placed(piece));
     std::vector<MadeJob> made(count);
@@ -275,6 +271,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         const std::lock_guard lock(recording);
         record_jobs(project, segmentation, i, made[i].written);
         save_project(folder, project);
+        if (on_job) on_job(made[i].report);
         progress.finish(i);
     });
     stage.divide(times);

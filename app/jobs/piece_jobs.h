@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,10 +47,11 @@ PieceReport write_job(const std::filesystem::path& folder, Project& project, con
                       const std::string& program_version, const Context& context);
 
 // The same for all pieces; no other job stays recorded. Each is recorded and the project saved as soon as it is
-// written, so that it can be rehearsed while others are made. One report per piece. Throws Cancelled.
+// written, so that it can be rehearsed while others are made; then `on_job` is called, unless it is empty, from one
+// thread at a time. One report per piece. Throws Cancelled.
 std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
                                     const Segmentation& segmentation, Setups& setups,
                                     std::span<const PieceJoint> joints, const std::string& program_version,
-                                    const Context& context);
+                                    const std::function<void(const PieceReport&)>& on_job, const Context& context);
 
 }  // namespace qchopper

@@ -6,13 +6,13 @@
 
 #include <chrono>
 
-#include "app/engine/open_project.h"
 #include "app/engine/planes_by_setups.h"
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/files/file.h"
 #include "base/parallel.h"
 #include "segment/mesh/measure.h"
+#include "tests/app/engine/judge_cuts.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -75,7 +75,7 @@ TEST_F(CutBySetups, NoPieceIsLeftAboveTheLimitWithoutBeingNamed) {
     OpenProject project = open();
     ASSERT_EQ(above_limit(project).size(), 4U);
     std::size_t rounds = 0;
-    project.judge_setups({}, [&](const Segmentation&) { ++rounds; });
+    judge_cuts(project, {}, [&](const Segmentation&) { ++rounds; });
     EXPECT_GE(rounds, 4U);
     EXPECT_GT(project.project().cuts.size(), 5U);
     const std::vector<std::string> above = above_limit(project);
@@ -88,7 +88,7 @@ TEST_F(CutBySetups, NoPieceIsLeftAboveTheLimitWithoutBeingNamed) {
     for (const Piece& piece : project.segmentation().pieces) volume += volume_mm3(*piece.mesh);
     EXPECT_NEAR(volume / volume_mm3(mesh), 1, 1e-9);
     const std::string saved = bytes();
-    project.judge_setups({});
+    judge_cuts(project);
     EXPECT_EQ(bytes(), saved) << "once";
 }
 
@@ -99,7 +99,7 @@ TEST_F(CutBySetups, APieceThatMayNotBeCutFurtherIsNamedAndTheRulesDoNotHold) {
     project.set_search(rules, 1);
     project.search(
         project.checks(), [](const Segmentation&) {}, {}, std::nullopt);
-    project.judge_setups({});
+    judge_cuts(project);
     const std::vector<std::string> above = above_limit(project);
     EXPECT_GE(above.size(), 3U);
     EXPECT_FALSE(project.project().do_rules_hold());
@@ -112,7 +112,7 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
     const fs::path copy = folder.string() + ".copy";
     fs::remove_all(copy);
     fs::copy(folder, copy, fs::copy_options::recursive);
-    open().judge_setups({});
+    judge_cuts(open());
     const std::string whole = bytes();
     fs::remove_all(folder);
     fs::rename(copy, folder);
@@ -122,7 +122,7 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
         context.cancelled = &stop;
         OpenProject project = open();
         const auto at_the_second = [&](const Segmentation& s) { stop = s.cuts.size() > 3; };
-        EXPECT_THROW(project.judge_setups(context, at_the_second), Cancelled);
+        EXPECT_THROW(judge_cuts(project, context, at_the_second), Cancelled);
     }
     const Project kept = load_project(folder);
     EXPECT_EQ(kept.stage, Stage::cutting);
@@ -133,7 +133,7 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
         const ThreadLimit one(1);
         OpenProject project = open();
         EXPECT_TRUE(project.is_being_judged());
-        project.judge_setups({});
+        judge_cuts(project);
     }
     EXPECT_EQ(bytes(), whole);
 }
@@ -143,14 +143,14 @@ TEST_F(CutBySetups, WhatRunsOutOfTimeGoesOnToTheSameBytes) {
     const fs::path copy = folder.string() + ".copy";
     fs::remove_all(copy);
     fs::copy(folder, copy, fs::copy_options::recursive);
-    const std::optional<SearchEnd> whole_end = open().judge_setups({});
+    const std::optional<SearchEnd> whole_end = judge_cuts(open());
     ASSERT_TRUE(whole_end);
     EXPECT_FALSE(whole_end->is_out_of_time());
     const std::string whole = bytes();
     fs::remove_all(folder);
     fs::rename(copy, folder);
     const auto judge_for = [&](std::chrono::milliseconds wait) {
-        return open().judge_setups({}, {}, TimeLimit{1e-9, std::chrono::steady_clock::now() + wait}).value();
+        return judge_cuts(open(), {}, {}, TimeLimit{1e-9, std::chrono::steady_clock::now() + wait}).value();
     };
     const std::size_t before = load_project(folder).cuts.size();
     EXPECT_TRUE(judge_for(std::chrono::milliseconds(-1)).is_out_of_time());

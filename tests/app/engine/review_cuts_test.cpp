@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "app/engine/open_project.h"
 #include "app/store/project_folder.h"
 #include "app/store/project_json.h"
 #include "app/store/replay.h"
 #include "base/files/file.h"
 #include "base/parallel.h"
 #include "segment/mesh/measure.h"
+#include "tests/app/engine/judge_cuts.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -103,7 +103,7 @@ TEST_F(Verdicts, APlaneWhosePiecesCanBeMilledReplacesOneWhosePiecesCannot) {
     cut_both();
     OpenProject project = open();
     const std::vector<SolidRecord> before = project.project().pieces;
-    project.judge_setups({});
+    judge_cuts(project);
     ASSERT_TRUE(project.project().review);
     const SetupReview review = *project.project().review;
     EXPECT_TRUE(review.is_done);
@@ -128,7 +128,7 @@ TEST_F(Verdicts, APlaneWhosePiecesCanBeMilledReplacesOneWhosePiecesCannot) {
     }
     expect_replayed(project);
     const std::string saved = bytes();
-    project.judge_setups({});
+    judge_cuts(project);
     EXPECT_EQ(bytes(), saved) << "every cut is asked once";
 }
 
@@ -137,7 +137,7 @@ TEST_F(Verdicts, UndoGivesThePlaneOfBeforeBackAndRedoReplacesItAgain) {
     OpenProject project = open();
     const std::vector<Cut> before = project.project().cuts;
     const std::vector<SolidRecord> pieces = project.project().pieces;
-    project.judge_setups({});
+    judge_cuts(project);
     const std::vector<Cut> after = project.project().cuts;
     ASSERT_TRUE(project.undo());
     EXPECT_EQ(project.project().cuts[1], before[1]);
@@ -162,7 +162,7 @@ TEST_F(Verdicts, WhatIsInterruptedGoesOnToTheSameBytes) {
     fs::copy(folder, copy, fs::copy_options::recursive);
     {
         OpenProject project = open();
-        project.judge_setups({});
+        judge_cuts(project);
     }
     const std::string whole = bytes();
     fs::remove_all(folder);
@@ -175,7 +175,7 @@ TEST_F(Verdicts, WhatIsInterruptedGoesOnToTheSameBytes) {
             if (p.what.find("cut 2 of piece") != std::string::npos) stop = true;
         };
         OpenProject project = open();
-        EXPECT_THROW(project.judge_setups(context), Cancelled);
+        EXPECT_THROW(judge_cuts(project, context), Cancelled);
     }
     const Project kept = load_project(folder);
     EXPECT_EQ(kept.stage, Stage::cutting);
@@ -186,7 +186,7 @@ TEST_F(Verdicts, WhatIsInterruptedGoesOnToTheSameBytes) {
     {
         OpenProject project = open();
         EXPECT_TRUE(project.is_being_judged());
-        project.judge_setups({});
+        judge_cuts(project);
     }
     EXPECT_EQ(bytes(), whole);
 }
@@ -202,7 +202,7 @@ TEST_F(Verdicts, AGainBelowTheThresholdIsNone) {
     }
     const Project before = load_project(folder);
     OpenProject project = open();
-    project.judge_setups({});
+    judge_cuts(project);
     ASSERT_TRUE(project.project().review);
     ASSERT_EQ(project.project().review->cuts.size(), 2U);
     EXPECT_EQ(project.project().review->cuts[0].outcome, ReviewOutcome::kept);
@@ -230,7 +230,7 @@ TEST_F(Verdicts, ACutThatCarriesOthersOrIsTheOperatorsStays) {
     }
     OpenProject project = open();
     const std::vector<Cut> before = project.project().cuts;
-    project.judge_setups({});
+    judge_cuts(project);
     ASSERT_TRUE(project.project().review);
     for (const CutReview& v : project.project().review->cuts) {
         EXPECT_EQ(v.outcome, v.cut == 1 ? ReviewOutcome::carries_cut : ReviewOutcome::decided);
@@ -244,7 +244,7 @@ TEST_F(Verdicts, WithoutTheWeightNothingIsAsked) {
     cut_both();
     const std::string before = bytes();
     OpenProject project = open();
-    project.judge_setups({});
+    judge_cuts(project);
     EXPECT_EQ(bytes(), before);
 }
 
@@ -253,12 +253,12 @@ TEST_F(Verdicts, AreTheSameForAnyNumberOfThreads) {
     const fs::path copy = folder.string() + ".copy";
     fs::remove_all(copy);
     fs::copy(folder, copy, fs::copy_options::recursive);
-    open().judge_setups({});
+    judge_cuts(open());
     const std::string many = bytes();
     fs::remove_all(folder);
     fs::rename(copy, folder);
     const ThreadLimit one(1);
-    open().judge_setups({});
+    judge_cuts(open());
     EXPECT_EQ(bytes(), many);
 }
 

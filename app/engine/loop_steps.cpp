@@ -1,13 +1,15 @@
-// The part of OpenProject in which setups judge what a search made. Cuts are asked in their order: a replacement gives
-// other names to the pieces of later cuts only. Then pieces are cut again: docs/decisions/0039.
+// The steps of the loop as OpenProject takes them, each saved decision by decision. In the review cuts are asked in
+// their order: a replacement gives other names to the pieces of later cuts only. Then pieces are cut again:
+// docs/decisions/0039. The cost is that of the search (segment/search), of the setups of all pieces, and of jobs.
 
 #include <algorithm>
 #include <limits>
 #include <map>
 
-#include "app/engine/open_project.h"
+#include "app/engine/loop.h"
 #include "app/engine/planes_by_setups.h"
 #include "app/engine/review_cuts.h"
+#include "app/jobs/project_sheets.h"
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/timings.h"
@@ -36,14 +38,46 @@ std::optional<ReviewOutcome> settled(const Project& project, const Segmentation&
     return std::nullopt;
 }
 
+void set_up(std::span<const Piece> pieces, Setups& setups, const LoopObserver& observer, const Context& context) {
+    StageTimer stage(context, "setups chosen");
+    context.progress("setups chosen", 0, pieces.size());
+    setups.map(pieces, context);
+    stage.next("work envelopes judged");
+    setups.place(pieces, context);
+    if (!observer.on_setup) return;
+    for (const Piece& piece : pieces) observer.on_setup(piece, setups.placed(piece));
+}
+
 }  // namespace
 
-bool OpenProject::asks_for_review() {
-    const bool is_open = project_.review && !project_.review->is_done;
-    const SearchSettings& settings = project_.settings;
-    if (settings.objectives.weights.unreachable <= 0 && !settings.stop.max_unreachable) return false;
-    if (setups() == nullptr) return false;
-    return is_open || (project_.stage == Stage::cut && !project_.review);
+SearchEnd OpenProject::search(const PieceChecks& checks, const OnDecision& on_decision, const Context& context,
+                              const std::optional<TimeLimit>& time_limit) {
+    remove_outputs(folder_, project_);
+    Segmentation working = segmentation();
+    const StageTimer stage(context, "search");
+    BeamProgress progress = beam_progress(
+        project_, working, [this]() -> const TriangleMesh& { return scan(); }, folder_ / "cache");
+    if (project_.settings.objectives.needs_structure()) set_stress(progress.root.pieces, stress());
+    release_scan();
+    const auto keep = [&](const Segmentation& best) {
+        adopt(best, progress.saved());
+        if (on_decision) on_decision(best);
+    };
+    SearchEnd end = qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
+    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
+    if (end.is_out_of_time()) return end;
+    record_end(end);
+    write_current_pieces();
+    project_.stage = Stage::cut;
+    save();
+    return end;
+}
+
+void OpenProject::record_end(const SearchEnd& end) {
+    project_.end_reason = end.reason;
+    project_.ended_because = end.sentence;
+    project_.reverted = end.reverted;
+    if (!end.is_finished()) project_.warnings.push_back(early_end(end.sentence));
 }
 
 // Other weights or rules: the search goes on with them, and its cuts are judged again.
@@ -51,29 +85,18 @@ void OpenProject::drop_unfinished_review() {
     if (is_being_judged()) project_.review.reset();
 }
 
-std::optional<SearchEnd> OpenProject::judge_setups(const Context& context,
-                                                   const std::function<void(const Segmentation&)>& on_round,
-                                                   const std::optional<TimeLimit>& time_limit) {
-    if (!asks_for_review()) return std::nullopt;
-    if (!project_.review) {
-        project_.review.emplace();
-        save();
-    }
-    if (!project_.review->are_cuts_asked) judge_cuts(context);
-    std::optional<SearchEnd> end = cut_by_setups(context, on_round, time_limit);
-    if (end && end->is_out_of_time()) {
-        end_ = end;
-        return end;
-    }
-    setups()->keep_only(segmentation().pieces);
-    if (project_.stage == Stage::cutting) write_current_pieces();
-    project_.stage = Stage::cut;
-    project_.review->is_done = true;
+bool OpenProject::begin_review() {
+    const SearchSettings& settings = project_.settings;
+    if (settings.objectives.weights.unreachable <= 0 && !settings.stop.max_unreachable) return false;
+    if (setups() == nullptr) return false;
+    if (project_.stage != Stage::cut || project_.review) return is_being_judged();
+    project_.review.emplace();
     save();
-    return end;
+    return true;
 }
 
-void OpenProject::judge_cuts(const Context& context) {
+void OpenProject::review_cuts(const OnDecision& on_decision, const Context& context) {
+    if (project_.review->are_cuts_asked) return;
     if (project_.settings.objectives.weights.unreachable > 0) {
         const StageTimer stage(context, "setups judge the cuts");
         std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
@@ -84,12 +107,24 @@ void OpenProject::judge_cuts(const Context& context) {
         std::erase_if(numbers, is_known);
         std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
         for (const std::int32_t number : numbers) {
-            judge_cut(number, divided, context);
+            if (judge_cut(number, divided, context) && on_decision) on_decision(segmentation());
             divided.erase(number);
         }
     }
     project_.review->are_cuts_asked = true;
     save();
+}
+
+std::optional<SearchEnd> OpenProject::cut_again(const OnDecision& on_decision, const Context& context,
+                                                const std::optional<TimeLimit>& time_limit) {
+    std::optional<SearchEnd> end = cut_by_setups(on_decision, context, time_limit);
+    if (end && end->is_out_of_time()) return end;
+    setups()->keep_only(segmentation().pieces);
+    if (project_.stage == Stage::cutting) write_current_pieces();
+    project_.stage = Stage::cut;
+    project_.review->is_done = true;
+    save();
+    return end;
 }
 
 // The rules of the search, but by the setups that jobs are made of.
@@ -126,8 +161,7 @@ BeamProgress OpenProject::after_the_search(const Segmentation& segmentation) {
 
 // A search of its own, with trials that setups decide. Its state is saved as that of any search; that it is this one
 // follows from the verdict.
-std::optional<SearchEnd> OpenProject::cut_by_setups(const Context& context,
-                                                    const std::function<void(const Segmentation&)>& on_round,
+std::optional<SearchEnd> OpenProject::cut_by_setups(const OnDecision& on_decision, const Context& context,
                                                     const std::optional<TimeLimit>& time_limit) {
     if (!project_.settings.stop.max_unreachable) return std::nullopt;
     if (time_limit && time_limit->has_passed()) return end_of_time(*time_limit);
@@ -145,7 +179,7 @@ std::optional<SearchEnd> OpenProject::cut_by_setups(const Context& context,
         take_over(s, progress.saved());
         save();
         setups()->keep_only(segmentation().pieces);
-        if (on_round) on_round(s);
+        if (on_decision) on_decision(s);
     };
     SearchEnd end = qchopper::search(working, settings, cache(), checks_by_setups(settings, context), keep, context,
                                      time_limit, &progress);
@@ -173,7 +207,7 @@ std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int3
     return divided;
 }
 
-void OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context) {
+bool OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context) {
     const Segmentation& now = segmentation();
     const Cut& cut = now.cuts[static_cast<std::size_t>(number - 1)];
     const auto piece = divided.find(number);
@@ -181,15 +215,20 @@ void OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Pi
         const MilledSurface surface = milled_surface(now, number, *setups());
         const ReviewOutcome outcome = settled(project_, now, cut).value_or(ReviewOutcome::kept);
         project_.review->cuts.push_back({number, cut.piece, outcome, 0, surface, surface});
-        return save();
+        save();
+        return false;
     }
     Piece parted = piece->second;
     parted.name = cut.piece;
     RecutTrial trial = try_other_planes(now, parted, number, project_.settings, *setups(), context);
-    if (trial.better) return replace_cut(*trial.better, std::move(trial.review));
+    if (trial.better) {
+        replace_cut(*trial.better, std::move(trial.review));
+        return true;
+    }
     setups()->keep_only(now.pieces);
     project_.review->cuts.push_back(std::move(trial.review));
     save();
+    return false;
 }
 
 // The stage is `cutting` before a file is removed, so that nothing that is on disk belongs to other cuts. Why the
@@ -206,6 +245,28 @@ void OpenProject::replace_cut(const Segmentation& alone, CutReview review) {
     if (!project_.do_rules_hold()) project_.warnings.push_back(early_end(project_.ended_because));
     project_.review->cuts.push_back(std::move(review));
     save();
+}
+
+PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
+                                           const LoopObserver& observer, const Context& context) {
+    check_cell();
+    const bool is_out_of_time = end && end->is_out_of_time();
+    if (is_out_of_time) record_end(*end);
+    if (!end || is_out_of_time) write_current_pieces();
+    PreparedProject prepared{folder_, {}, setups()->cell(), max_unreachable(project_, setups()->cell()), {}};
+    const std::vector<Piece>& pieces = segmentation().pieces;
+    release_scan();
+    prepared.joints = project_joints(segmentation(), &prepared.cell, context);
+    set_up(pieces, *setups(), observer, context);
+    prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version,
+                                 observer.on_job, context);
+    write_sheets(folder_, project_, context);
+    write_pictures(folder_, pieces, *setups(), context);
+    project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
+    const StageTimer stage(context, "project saved");
+    save_project(folder_, project_);
+    prepared.project = project_;
+    return prepared;
 }
 
 }  // namespace qchopper

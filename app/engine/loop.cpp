@@ -1,0 +1,51 @@
+// The steps are those of OpenProject (loop_steps.cpp).
+
+#include "app/engine/loop.h"
+
+#include "app/store/project_lines.h"
+
+namespace qchopper {
+
+LoopResult run_loop(OpenProject& project, const LoopOptions& options, const LoopObserver& observer,
+                    const Context& context) {
+    const auto decided_in = [&](LoopStep step) {
+        return [&observer, step](const Segmentation& saved) {
+            if (observer.on_decision) observer.on_decision(saved, step);
+        };
+    };
+    LoopResult result;
+    if (project.is_search_open() || options.last == LoopStep::cut) {
+        result.end = project.search(project.checks(), decided_in(LoopStep::cut), context, options.time_limit);
+    }
+    if (options.last == LoopStep::cut) return result;
+    if (project.begin_review()) {
+        project.review_cuts(decided_in(LoopStep::review), context);
+        if (options.last == LoopStep::review) return result;
+        const auto end = project.cut_again(decided_in(LoopStep::cut_again), context, options.time_limit);
+        if (end) result.end = end;
+    }
+    if (observer.on_cut) observer.on_cut(result.end);
+    if (options.last == LoopStep::jobs) {
+        result.prepared = project.write_outputs(result.end, options.program_version, observer, context);
+    }
+    return result;
+}
+
+std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, std::string go_on,
+                                                                  bool of_beam, const ProjectContext& context) {
+    const auto say_kept = [&project, &context, go_on = std::move(go_on), of_beam](std::size_t cuts) {
+        context.saved(kept_cuts(cuts, project.folder(), of_beam) + go_on);
+    };
+    say_kept(project.project().cuts.size());
+    return [&project, &context, say_kept, of_beam, told = project.project().cuts.size()](const Segmentation& saved,
+                                                                                         LoopStep step) mutable {
+        if (step == LoopStep::review) return;  // the cuts are as many; review_lines() tells what became of them
+        say_kept(saved.cuts.size());
+        for (const std::string& line : round_lines(saved.cuts, told, project.project().settings)) {
+            context.message((of_beam ? "best so far: " : "") + line);
+        }
+        told = saved.cuts.size();
+    };
+}
+
+}  // namespace qchopper
