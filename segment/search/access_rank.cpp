@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -15,39 +14,46 @@
 #include "segment/access/cut_access.h"
 #include "segment/access/dense_access.h"
 #include "segment/cut/nudge.h"
-#include "segment/objectives/sweep/sweep.h"
+#include "segment/search/best_first.h"
+#include "segment/search/candidates/size_candidates.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/refined_plane.h"
-#include "segment/search/size_candidates.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t normals_at_once = 4;  // fixed, so that what is evaluated does not depend on the threads
+constexpr std::size_t normals_at_once = 4;
 constexpr std::size_t first_offsets = 8;
 constexpr std::size_t axes_of_box = 3;
-constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The planes of one normal before any is evaluated.
+PlanesOfNormal unevaluated(Vec3 normal, std::size_t number, const std::vector<double>& offsets) {
+    PlanesOfNormal planes;
+    for (const double offset : offsets) {
+        const Candidate candidate{{normal, offset}, offset, static_cast<int>(number), static_cast<int>(planes.size())};
+        planes.push_back({.candidate = candidate});
+    }
+    return planes;
+}
 
 AccessEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchSettings& settings,
                         const Context& context) {
     AccessEvaluations result;
     const CandidateOptions& options = settings.candidates;
     result.normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
-    result.offsets.resize(result.normals.size());
+    result.planes.resize(result.normals.size());
     result.unreachable_mm2.resize(result.normals.size());
-    const SampledPiece& samples = *piece.samples;
-    const JudgedPiece judged = samples.judged();
+    const JudgedPiece judged = piece.samples->judged();
     const AccessSweep sweep(piece, judged, cap_bases(piece), settings.objectives.tilt_deg);
     const std::vector<NoCutTriangle> no_cut = no_cut_triangles(*piece.mesh, options.no_cut);
     parallel_for(0, result.normals.size(), [&](std::size_t n) {
         context.check_cancelled();
-        result.offsets[n] = candidate_offsets(extent(*piece.mesh, result.normals[n]), options);
-        for (const PlaneAccess& plane : sweep.sweep(result.normals[n], result.offsets[n])) {
-            result.unreachable_mm2[n].push_back(unreachable_mm2(plane));
-        }
+        const std::vector<double> offsets = candidate_offsets(extent(*piece.mesh, result.normals[n]), options);
+        result.planes[n] = unevaluated(result.normals[n], n, offsets);
         const std::vector<Extent> forbidden = forbidden_heights(no_cut, result.normals[n]);
-        for (std::size_t k = 0; k < result.offsets[n].size(); ++k) {
-            if (is_forbidden(forbidden, result.offsets[n][k])) result.unreachable_mm2[n][k] = infinite;
+        for (const PlaneAccess& plane : sweep.sweep(result.normals[n], offsets)) {
+            const double offset = offsets[result.unreachable_mm2[n].size()];
+            result.unreachable_mm2[n].push_back(is_forbidden(forbidden, offset) ? never : unreachable_mm2(plane));
         }
     });
     return result;
@@ -75,7 +81,9 @@ class AccessRanking {
         best = std::max(settings.beam, best);
         auto for_size = candidates_for_size(cache.box(piece_), settings.candidates, too_large_for);
         if (access_.objectives != settings.objectives || access_.best != best || access_.for_size != for_size) {
-            access_.evaluated.clear();
+            for (PlanesOfNormal& planes : access_.planes) {
+                for (EvaluatedPlane& plane : planes) plane = {.candidate = plane.candidate};
+            }
             access_.further.clear();
             access_.refined_from.reset();
             access_.refined.reset();
@@ -99,23 +107,26 @@ class AccessRanking {
             if (r.normal_index >= 0 && normals.size() < count) normals.insert(r.normal_index);
         }
         if (other >= 0 && static_cast<std::size_t>(other) < access_.normals.size()) normals.insert(other);
-        std::vector<Group> groups;
-        groups.reserve(normals.size());
-        for (const int n : normals) groups.push_back({static_cast<std::size_t>(n), {}});
-        takes_whole_normals_ = true;
-        evaluate_solids(groups, infinite);
-        evaluate_fragility(groups, infinite);
-        return with_refined(ranking(others_));
+        const PreparedPiece& prepared = prepared_piece();
+        const std::vector<int> whole(normals.begin(), normals.end());
+        parallel_for(0, whole.size(), [&](std::size_t i) {
+            PlanesOfNormal& planes = access_.planes[static_cast<std::size_t>(whole[i])];
+            std::vector<EvaluatedPlane*> all;
+            for (EvaluatedPlane& plane : planes) all.push_back(&plane);
+            evaluate_solids(prepared, all);
+            evaluate_whole(prepared, all);
+        });
+        return with_refined(ranking());
     }
 
     std::vector<Ranked> run() {
         evaluate_further();
         for (int cuts = 0;; ++cuts) {
-            evaluate_what_can_win();
-            std::vector<Ranked> ranked = ranking(others_);
+            evaluate_best();
+            std::vector<Ranked> ranked = ranking();
             if (ranked.empty() && std::exchange(is_restricted_, false)) {
-                evaluate_what_can_win();  // no candidate parts the piece: another plane may
-                ranked = ranking(others_);
+                evaluate_best();  // no candidate parts the piece: another plane may
+                ranked = ranking();
             }
             const auto in_doubt = first_in_doubt(ranked);
             if (!in_doubt || cuts == max_real_cuts) return with_refined(std::move(ranked));
@@ -124,16 +135,10 @@ class AccessRanking {
     }
 
  private:
-    // Planes of one normal that are evaluated together.
-    struct Group {
-        std::size_t normal = 0;
-        std::vector<AccessPlane*> planes;
-    };
-
     // Of a piece that is not cut for size a plane is a candidate if it opens nearly as much as the best one, or nothing
     // is to be gained and it lies along an axis of the box.
     void find_candidates(double unreachable_mm2) {
-        double least = infinite;
+        double least = never;
         for (const std::vector<double>& planes : access_.unreachable_mm2) {
             for (const double unreachable : planes) least = std::min(least, unreachable);
         }
@@ -150,34 +155,35 @@ class AccessRanking {
     }
 
     // Of planes along none of the normals. Beside planes by which the piece is cut for size there is no room for them.
-    bool is_further_candidate(const AccessPlane& plane) const {
+    bool is_further_candidate(const EvaluatedPlane& plane) const {
         if (!is_restricted_) return true;
         if (!access_.for_size.empty()) return false;
         return is_along_box_only_ || plane.evaluation->access->unreachable_mm2 <= max_unreachable_mm2_;
     }
 
-    AccessPlane* further_plane(const Plane& plane) {
+    EvaluatedPlane* further_plane(const Plane& plane) {
         const auto at = std::find_if(access_.further.begin(), access_.further.end(),
-                                     [&](const AccessPlane& p) { return p.candidate.plane == plane; });
+                                     [&](const EvaluatedPlane& p) { return p.candidate.plane == plane; });
         return at == access_.further.end() ? nullptr : &*at;
     }
 
-    AccessPlane& plane_of(const Ranked& ranked) {
+    EvaluatedPlane& plane_of(const Ranked& ranked) {
         if (ranked.normal_index < 0) return *further_plane(ranked.plane);
-        return access_.evaluated.at(
-            {static_cast<std::size_t>(ranked.normal_index), static_cast<std::size_t>(ranked.offset_index)});
+        return access_
+            .planes[static_cast<std::size_t>(ranked.normal_index)][static_cast<std::size_t>(ranked.offset_index)];
     }
 
     // With all terms; the evaluation is nothing if the plane misses.
-    AccessPlane evaluated_alone(const Candidate& candidate) {
-        const Plane& plane = candidate.plane;
-        std::vector<std::optional<CutEvaluation>> evaluation =
-            sweep_solids(prepared_piece(), plane.normal, {&plane.offset, 1});
-        if (evaluation.front()) {
-            add_late_terms(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
-            evaluation.front()->access = cut_access(piece_, plane, settings_.objectives.tilt_deg);
+    EvaluatedPlane evaluated_alone(const Candidate& candidate) {
+        EvaluatedPlane plane{.candidate = candidate};
+        EvaluatedPlane* const alone = &plane;
+        evaluate({&alone, 1}, TermStage::solids, prepared_piece(), settings_.objectives);
+        if (plane.evaluation) {
+            evaluate({&alone, 1}, TermStage::whole, prepared_piece(), settings_.objectives);
+            plane.evaluation->access = cut_access(piece_, candidate.plane, settings_.objectives.tilt_deg);
         }
-        return {candidate, true, std::move(evaluation.front()), true, false};
+        plane.stage = TermStage::whole;
+        return plane;
     }
 
     void evaluate_further() {
@@ -187,7 +193,7 @@ class AccessRanking {
             context_.check_cancelled();
             if (further_plane(candidate.plane) != nullptr) continue;
             access_.further.push_back(evaluated_alone(candidate));
-            AccessPlane& plane = access_.further.back();
+            EvaluatedPlane& plane = access_.further.back();
             if (plane.evaluation && plane.evaluation->solids.size() > 2) cut_really(plane);
         }
     }
@@ -204,149 +210,89 @@ class AccessRanking {
 
     // What a plane costs at least, without what the other pieces cost where that is the same for all planes.
     double bound(std::size_t normal, std::size_t offset) const {
-        const auto at = access_.evaluated.find({normal, offset});
-        if (at == access_.evaluated.end()) {
-            if (!is_candidate(normal, offset)) return infinite;
+        const EvaluatedPlane& plane = access_.planes[normal][offset];
+        if (plane.stage == TermStage::none) {
+            if (!is_candidate(normal, offset)) return never;
             const double others = is_of_cut_ ? 0 : others_unreachable_mm2_;
             return settings_.objectives.weights.unreachable * (access_.unreachable_mm2[normal][offset] + others) /
                    scan_area_mm2(piece_);
         }
-        if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
-        const std::optional<Terms> t =
-            terms(*at->second.evaluation, counted_others(), settings_.objectives, counted_scan());
-        return t ? t->total : infinite;
+        if (!plane.evaluation) return never;
+        const std::optional<Terms> t = terms(*plane.evaluation, counted_others(), settings_.objectives, counted_scan());
+        return t ? t->total : never;
     }
 
-    bool is_known(std::size_t normal, std::size_t offset) const {
-        const auto at = access_.evaluated.find({normal, offset});
-        return at != access_.evaluated.end() && at->second.is_swept &&
-               (!at->second.evaluation || at->second.has_fragility);
-    }
-
-    // Evaluates until no plane that is not evaluated can be among the best.
-    void evaluate_what_can_win() {
+    void evaluate_best() {
         const StageTimer stage(context_, "planes evaluated");
-        while (true) {
-            const double most = limit();
-            std::vector<std::pair<double, std::size_t>> open;  // least bound of a normal, and the normal
-            for (std::size_t n = 0; n < access_.normals.size(); ++n) {
-                double least = infinite;
-                for (std::size_t k = 0; k < access_.offsets[n].size(); ++k) {
-                    if (!is_known(n, k)) least = std::min(least, bound(n, k));
-                }
-                if (least < infinite && least <= most + tie) open.emplace_back(least, n);
-            }
-            if (open.empty()) return;
-            std::sort(open.begin(), open.end());
-            open.resize(std::min(open.size(), normals_at_once));
-            std::vector<Group> groups;
-            groups.reserve(open.size());
-            for (const auto& [least, n] : open) groups.push_back({n, {}});
-            evaluate_solids(groups, most);
-            evaluate_fragility(groups, limit());
-            context_.progress("planes evaluated", access_.evaluated.size(), 0);
-        }
+        BestFirst search{access_.planes, access_.best, normals_at_once};
+        search.bound = [&](std::size_t n, std::size_t k) { return bound(n, k); };
+        search.evaluate = [&](std::span<const std::size_t> normals, const Bounds& bounds, double most) {
+            const PreparedPiece& prepared = prepared_piece();
+            parallel_for(0, normals.size(), [&](std::size_t i) {
+                const std::size_t n = normals[i];
+                std::vector<EvaluatedPlane*> planes = wanted(n, bounds[n], most);
+                evaluate_solids(prepared, planes);
+                std::erase_if(planes, [&](const EvaluatedPlane* plane) {
+                    const auto k = static_cast<std::size_t>(plane->candidate.offset_index);
+                    return is_of_cut_ && bound(n, k) > most + tie;
+                });
+                evaluate_whole(prepared, planes);
+            });
+            context_.progress("planes evaluated", count_evaluated(access_.planes, TermStage::solids), 0);
+        };
+        evaluate_what_can_win(search);
     }
 
-    // The total of the last of the best planes that are evaluated; infinite if there are too few.
-    double limit() const {
-        std::vector<double> totals;
-        for (const auto& [key, plane] : access_.evaluated) {
-            if (!plane.has_fragility) continue;
-            const double total = bound(key.first, key.second);
-            if (total < infinite) totals.push_back(total);
-        }
-        if (totals.size() < access_.best) return infinite;
-        const auto last = totals.begin() + static_cast<std::ptrdiff_t>(access_.best) - 1;
-        std::nth_element(totals.begin(), last, totals.end());
-        return *last;
-    }
-
-    // Offsets of a normal that can win, or so long as nothing is known some that cost least; all where normals are
-    // evaluated whole.
-    std::vector<std::size_t> wanted(std::size_t normal, double most) const {
+    // Planes of a normal that can win, or so long as nothing is known some that cost least; all candidates where
+    // normals are evaluated whole.
+    std::vector<EvaluatedPlane*> wanted(std::size_t normal, std::span<const double> bounds, double most) {
+        PlanesOfNormal& planes = access_.planes[normal];
         std::vector<std::size_t> offsets;
-        for (std::size_t k = 0; k < access_.offsets[normal].size(); ++k) {
-            if (is_known(normal, k)) continue;
-            const bool can_win = is_candidate(normal, k) && (!is_of_cut_ || bound(normal, k) <= most + tie);
-            if (can_win || takes_whole_normals_) offsets.push_back(k);
+        for (std::size_t k = 0; k < planes.size(); ++k) {
+            const bool is_open = planes[k].stage == TermStage::none || planes[k].evaluation.has_value();
+            if (!is_open || planes[k].stage == TermStage::whole || !is_candidate(normal, k)) continue;
+            if (!is_of_cut_ || bounds[k] <= most + tie) offsets.push_back(k);
         }
-        if (is_of_cut_ && !takes_whole_normals_ && most == infinite && offsets.size() > first_offsets) {
-            const std::vector<double>& access = access_.unreachable_mm2[normal];
-            std::stable_sort(offsets.begin(), offsets.end(),
-                             [&](std::size_t a, std::size_t b) { return access[a] < access[b]; });
-            offsets.resize(first_offsets);
-            std::sort(offsets.begin(), offsets.end());
-        }
-        return offsets;
+        if (is_of_cut_ && most == never) keep_least(offsets, first_offsets, access_.unreachable_mm2[normal]);
+        std::vector<EvaluatedPlane*> chosen;
+        for (const std::size_t k : offsets) chosen.push_back(&planes[k]);
+        return chosen;
     }
 
-    // Adds the planes that are wanted to the groups, with their solids.
-    void evaluate_solids(std::vector<Group>& groups, double most) {
-        std::vector<std::vector<std::size_t>> offsets;
-        for (Group& group : groups) {
-            offsets.push_back(wanted(group.normal, most));
-            for (const std::size_t k : offsets.back()) group.planes.push_back(&access_.evaluated[{group.normal, k}]);
+    // Of planes of one normal, some of which have their solids.
+    void evaluate_solids(const PreparedPiece& prepared, std::vector<EvaluatedPlane*> planes) const {
+        context_.check_cancelled();
+        std::erase_if(planes, [](const EvaluatedPlane* plane) { return plane->stage != TermStage::none; });
+        if (planes.empty()) return;
+        const Vec3 normal = planes.front()->candidate.plane.normal;
+        std::vector<double> offsets;
+        for (const EvaluatedPlane* plane : planes) offsets.push_back(plane->candidate.wanted_offset);
+        const std::vector<std::optional<Nudged>> nudged = nudge(piece_, normal, offsets);
+        const std::vector<Extent> forbidden = forbidden_heights(no_cut_, normal);
+        std::vector<EvaluatedPlane*> met;
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            if (nudged[i] && !is_forbidden(forbidden, nudged[i]->offset)) {
+                planes[i]->candidate.plane.offset = nudged[i]->offset;
+                met.push_back(planes[i]);
+            } else {
+                planes[i]->stage = TermStage::solids;
+            }
         }
-        const PreparedPiece& prepared = prepared_piece();
-        parallel_for(0, groups.size(), [&](std::size_t g) {
-            context_.check_cancelled();
-            const std::size_t n = groups[g].normal;
-            std::vector<double> wanted_offsets;
-            std::vector<AccessPlane*> fresh;
-            for (std::size_t i = 0; i < offsets[g].size(); ++i) {
-                if (groups[g].planes[i]->is_swept) continue;
-                wanted_offsets.push_back(access_.offsets[n][offsets[g][i]]);
-                fresh.push_back(groups[g].planes[i]);
-                fresh.back()->candidate = {{access_.normals[n], 0},
-                                           wanted_offsets.back(),
-                                           static_cast<int>(n),
-                                           static_cast<int>(offsets[g][i])};
-            }
-            const std::vector<std::optional<Nudged>> nudged = nudge(piece_, access_.normals[n], wanted_offsets);
-            const std::vector<Extent> forbidden = forbidden_heights(no_cut_, access_.normals[n]);
-            std::vector<double> nudged_offsets;
-            std::vector<AccessPlane*> met;
-            for (std::size_t i = 0; i < fresh.size(); ++i) {
-                if (!nudged[i] || is_forbidden(forbidden, nudged[i]->offset)) continue;
-                fresh[i]->candidate.plane.offset = nudged[i]->offset;
-                nudged_offsets.push_back(nudged[i]->offset);
-                met.push_back(fresh[i]);
-            }
-            std::vector<std::optional<CutEvaluation>> evaluations =
-                sweep_solids(prepared, access_.normals[n], nudged_offsets);
-            for (std::size_t i = 0; i < met.size(); ++i) {
-                if (!evaluations[i]) continue;
-                const auto k = static_cast<std::size_t>(met[i]->candidate.offset_index);
-                evaluations[i]->access = CutAccess{access_.unreachable_mm2[n][k], scan_area_mm2(piece_)};
-                met[i]->evaluation = std::move(evaluations[i]);
-            }
-            for (AccessPlane* plane : fresh) plane->is_swept = true;
-        });
+        evaluate(met, TermStage::solids, prepared, settings_.objectives);
+        for (EvaluatedPlane* plane : met) {
+            if (!plane->evaluation) continue;
+            const auto n = static_cast<std::size_t>(plane->candidate.normal_index);
+            const auto k = static_cast<std::size_t>(plane->candidate.offset_index);
+            plane->evaluation->access = CutAccess{access_.unreachable_mm2[n][k], scan_area_mm2(piece_)};
+        }
     }
 
-    void evaluate_fragility(const std::vector<Group>& groups, double most) {
-        const PreparedPiece& prepared = prepared_piece();
-        parallel_for(0, groups.size(), [&](std::size_t g) {
-            context_.check_cancelled();
-            std::vector<double> offsets;
-            std::vector<AccessPlane*> planes;
-            std::vector<std::optional<CutEvaluation>> evaluations;
-            for (AccessPlane* plane : groups[g].planes) {
-                if (!plane->evaluation || plane->has_fragility) continue;
-                const double least = bound(groups[g].normal, static_cast<std::size_t>(plane->candidate.offset_index));
-                if (is_of_cut_ && !takes_whole_normals_ && least > most + tie) continue;
-                offsets.push_back(plane->candidate.plane.offset);
-                planes.push_back(plane);
-                evaluations.push_back(std::move(plane->evaluation));
-            }
-            if (planes.empty()) return;
-            add_late_terms(prepared, access_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
-            for (std::size_t i = 0; i < planes.size(); ++i) {
-                planes[i]->evaluation = std::move(evaluations[i]);
-                planes[i]->has_fragility = true;
-            }
-        });
+    // Of planes of one normal that have their solids.
+    void evaluate_whole(const PreparedPiece& prepared, std::vector<EvaluatedPlane*> planes) const {
+        context_.check_cancelled();
+        std::erase_if(
+            planes, [](const EvaluatedPlane* plane) { return !plane->evaluation || plane->stage == TermStage::whole; });
+        evaluate(planes, TermStage::whole, prepared, settings_.objectives);
     }
 
     const PreparedPiece& prepared_piece() {
@@ -358,7 +304,7 @@ class AccessRanking {
     // because only cutting judges those, nor where the piece is cut for size.
     std::vector<Ranked> with_refined(std::vector<Ranked> ranked) {
         if (ranked.empty()) return ranked;
-        const AccessPlane& best = plane_of(ranked.front());
+        const EvaluatedPlane& best = plane_of(ranked.front());
         const bool may_refine = best.evaluation->solids.size() == 2 && access_.for_size.empty();
         if (access_.refined_from != best.candidate.plane) {
             access_.refined_from = best.candidate.plane;
@@ -366,14 +312,12 @@ class AccessRanking {
             if (may_refine) refine(best);
         }
         if (!access_.refined) return ranked;
-        const std::vector<Ranked> refined =
-            rank({{access_.refined->candidate}, {access_.refined->evaluation}}, others_, settings_.objectives, scan_);
-        ranked.insert(ranked.end(), refined.begin(), refined.end());
+        add(ranked, *access_.refined);
         sort_ranking(ranked, settings_.objectives);
         return ranked;
     }
 
-    void refine(const AccessPlane& best) {
+    void refine(const EvaluatedPlane& best) {
         const double area = scan_area_mm2(piece_);
         if (best.evaluation->access->unreachable_mm2 < min_gain_of_scan * area) return;
         const StageTimer stage(context_, "planes refined");
@@ -386,39 +330,38 @@ class AccessRanking {
         if (found.plane == best.candidate.plane) return;
         const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
         if (!nudged || !is_allowed({found.plane.normal, nudged->offset})) return;
-        AccessPlane refined =
+        EvaluatedPlane refined =
             evaluated_alone({{found.plane.normal, nudged->offset}, found.plane.offset, refined_index, refined_index});
         if (!refined.evaluation || refined.evaluation->solids.size() != 2) return;
         access_.refined = std::move(refined);
     }
 
-    std::vector<Ranked> ranking(std::span<const PieceShare> others) {
-        PieceEvaluations all;
-        for (const auto& [key, plane] : access_.evaluated) {
-            if (!plane.has_fragility) continue;
-            all.candidates.push_back(plane.candidate);
-            all.evaluations.push_back(plane.evaluation);
-        }
+    void add(std::vector<Ranked>& ranked, const EvaluatedPlane& plane) const {
+        const auto one = rank(plane.candidate, plane.evaluation, others_, settings_.objectives, scan_);
+        if (one) ranked.push_back(*one);
+    }
+
+    std::vector<Ranked> ranking() {
+        std::vector<Ranked> ranked = rank(access_.planes, others_, settings_.objectives, scan_);
         for (const Candidate& candidate : further_) {
-            const AccessPlane& plane = *further_plane(candidate.plane);
-            if (!plane.evaluation || !is_further_candidate(plane)) continue;
-            all.candidates.push_back(candidate);
-            all.evaluations.push_back(plane.evaluation);
+            const EvaluatedPlane& plane = *further_plane(candidate.plane);
+            if (plane.evaluation && is_further_candidate(plane)) add(ranked, plane);
         }
-        return rank(all, others, settings_.objectives, scan_);
+        if (!further_.empty()) sort_ranking(ranked, settings_.objectives);
+        return ranked;
     }
 
     // Of the planes that are taken, and those that setups may choose before them (app/engine/review_cuts.h), the first
     // whose sides are several solids and that was not cut yet.
-    AccessPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
+    EvaluatedPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
         for (std::size_t i = 0; i < std::min(std::max(settings_.beam, min_best_planes), ranked.size()); ++i) {
-            AccessPlane& plane = plane_of(ranked[i]);
+            EvaluatedPlane& plane = plane_of(ranked[i]);
             if (!plane.is_really_cut && plane.evaluation->solids.size() > 2) return &plane;
         }
         return nullptr;
     }
 
-    void cut_really(AccessPlane& plane) {
+    void cut_really(EvaluatedPlane& plane) {
         const StageTimer stage(context_, "cuts made");
         context_.check_cancelled();
         plane.is_really_cut = true;
@@ -442,7 +385,6 @@ class AccessRanking {
     bool is_restricted_ = true;  // to the candidates
     bool is_along_box_only_ = false;
     double max_unreachable_mm2_ = 0;  // of a candidate
-    bool takes_whole_normals_ = false;
     std::optional<PreparedPiece> prepared_;
 };
 

@@ -20,7 +20,7 @@
 #include "base/context.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/objectives/objectives.h"
-#include "segment/search/candidates/candidates.h"
+#include "segment/search/candidates/evaluate.h"
 #include "segment/search/segmentation.h"
 
 namespace qchopper {
@@ -31,36 +31,17 @@ struct PieceEvaluations {
     std::vector<std::optional<CutEvaluation>> evaluations;  // one per candidate; nothing: the plane misses
 };
 
-// What is known of one plane of a piece that is ranked by reach, beside the reach itself.
-struct AccessPlane {
-    Candidate candidate;
-    bool is_swept = false;
-    std::optional<CutEvaluation> evaluation;  // nothing though it is swept: the plane misses
-    bool has_fragility = false;               // false: the evaluation's is 0 still
-    bool is_really_cut = false;               // its reach is that of the pieces that it really makes
-};
-
 // What is known of the planes of a piece that are ranked by reach (access_rank.h). Areas in mm2, of both sides.
 struct AccessEvaluations {
-    std::vector<Vec3> normals;                                             // none: not swept yet
-    std::vector<std::vector<double>> offsets;                              // per normal, not nudged
-    std::vector<std::vector<double>> unreachable_mm2;                      // per normal and offset
-    std::map<std::pair<std::size_t, std::size_t>, AccessPlane> evaluated;  // by normal and offset
-    std::vector<AccessPlane> further;                                      // planes along none of the normals
-    std::optional<Plane> refined_from;                                     // the best plane, if it was refined
-    std::optional<AccessPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
-    Objectives objectives;               // with these, and for so many best planes
+    std::vector<Vec3> normals;                         // none: not swept yet
+    std::vector<std::vector<double>> unreachable_mm2;  // per normal and offset
+    std::vector<PlanesOfNormal> planes;                // the same; not nudged so long as nothing is evaluated
+    std::vector<EvaluatedPlane> further;               // planes along none of the normals
+    std::optional<Plane> refined_from;                 // the best plane, if it was refined
+    std::optional<EvaluatedPlane> refined;             // the best plane moved and turned; nothing: it leaves no less
+    Objectives objectives;                             // with these, and for so many best planes
     std::size_t best = 0;
     std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
-};
-
-// Which terms of a plane are evaluated.
-enum class LateStage : std::uint8_t { fast, fragility, whole };
-
-// What is known of the candidates of a piece whose slow terms are evaluated only as far as needed (late_rank.h).
-struct LateEvaluations {
-    PieceEvaluations planes;       // slow terms are 0 where they are not evaluated
-    std::vector<LateStage> stage;  // one per candidate; empty: not swept yet
 };
 
 // Orders planes that are equal bit for bit.
@@ -92,8 +73,8 @@ class EvaluationCache {
     double unreachable_mm2(const Piece& piece, double tilt_deg);
     // Of a piece that has samples; access_rank.h fills it.
     AccessEvaluations& access(const Piece& piece) { return entry(piece).access; }
-    // late_rank.h fills them.
-    LateEvaluations& late(const Piece& piece) { return entry(piece).late; }
+    // late_rank.h fills them: the candidates, evaluated only as far as needed. Empty: not swept yet.
+    std::vector<PlanesOfNormal>& late(const Piece& piece) { return entry(piece).late; }
     OwnBoxes& own_boxes(const Piece& piece) { return entry(piece).own_boxes; }
     // The planes that are proposed for a piece.
     std::vector<Candidate> candidates(const Piece& piece);
@@ -130,7 +111,7 @@ class EvaluationCache {
         PieceEvaluations further;
         std::optional<double> unreachable_mm2;
         AccessEvaluations access;
-        LateEvaluations late;
+        std::vector<PlanesOfNormal> late;
         OwnBoxes own_boxes;
     };
 

@@ -12,20 +12,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
-#include <tuple>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/timings.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
-#include "segment/objectives/sweep/sweep.h"
+#include "segment/search/best_first.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t normals_at_once = 8;  // fixed, so that what is evaluated does not depend on the threads
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t normals_at_once = 8;
 
 class LateRanking {
  public:
@@ -34,181 +32,86 @@ class LateRanking {
         : piece_(segmentation.pieces[piece]),
           objectives_(settings.objectives),
           context_(context),
-          late_(cache.late(piece_)),
+          planes_(cache.late(piece_)),
           axes_(cache.box(piece_).axis),
           others_(shares_of_others(segmentation, piece, objectives_, cache)),
           scan_(scan_share(segmentation, piece, objectives_, cache)),
           best_(best) {
-        if (late_.planes.candidates.empty()) {
-            late_.planes.candidates = cache.candidates(piece_);
-            late_.planes.evaluations.resize(late_.planes.candidates.size());
-        }
-        find_groups();
+        if (planes_.empty()) planes_ = by_normal(cache.candidates(piece_));
+        for (const PlanesOfNormal& of_normal : planes_) count_ += of_normal.size();
     }
 
     std::vector<Ranked> run() {
         const StageTimer stage(context_, "planes evaluated");
-        sweep_all();
-        parallel_for(0, groups_.size(), [&](std::size_t g) { update(groups_[g]); });
-        double most = limit();
-        for (std::vector<std::size_t> open = can_win(most); !open.empty(); open = can_win(most)) {
-            open.resize(std::min(open.size(), normals_at_once));
-            prepared();
-            parallel_for(0, open.size(), [&](std::size_t i) { advance(groups_[open[i]], most); });
-            most = limit();
-            const auto done = std::count(late_.stage.begin(), late_.stage.end(), LateStage::whole);
-            context_.progress("planes evaluated", static_cast<std::size_t>(done), late_.stage.size());
-        }
-        PieceEvaluations known;
-        for (std::size_t i = 0; i < known_.size(); ++i) {
-            if (late_.stage[i] != LateStage::whole || known_[i].total > most + tie) continue;
-            known.candidates.push_back(late_.planes.candidates[i]);
-            known.evaluations.push_back(late_.planes.evaluations[i]);
-        }
-        std::vector<Ranked> ranked = rank(known, others_, objectives_, scan_);
-        if (most < infinite) std::erase_if(ranked, [&](const Ranked& r) { return is_forbidden(r.terms, objectives_); });
+        if (count_evaluated(planes_, TermStage::solids) < count_) evaluate_solids();
+        BestFirst search{planes_, best_, normals_at_once};
+        search.bound = [&](std::size_t n, std::size_t k) { return bound(planes_[n][k]); };
+        search.evaluate = [&](std::span<const std::size_t> normals, const Bounds& bounds, double most) {
+            const PreparedPiece& piece = prepared();
+            parallel_for(0, normals.size(),
+                         [&](std::size_t i) { advance(piece, normals[i], bounds[normals[i]], most); });
+            context_.progress("planes evaluated", count_evaluated(planes_, TermStage::whole), count_);
+        };
+        const double most = evaluate_what_can_win(search);
+        std::vector<Ranked> ranked = rank(planes_, others_, objectives_, scan_);
+        std::erase_if(ranked, [&](const Ranked& r) {
+            return r.terms.total > most + tie || (most < never && is_forbidden(r.terms, objectives_));
+        });
         return ranked;
     }
 
  private:
-    struct Group {  // candidates of one normal
-        std::size_t first;
-        std::size_t last;
-    };
-    struct Known {  // of a candidate: its total as far as it is evaluated
-        double total = infinite;
-        bool is_out = false;
-    };
-
-    void find_groups() {
-        const std::vector<Candidate>& all = late_.planes.candidates;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const bool continues = i > 0 && all[i].plane.normal == all[i - 1].plane.normal &&
-                                   all[i].plane.offset > all[i - 1].plane.offset;
-            if (!continues) groups_.push_back({i, i});
-            groups_.back().last = i + 1;
-        }
-        known_.resize(all.size());
-    }
-
     const PreparedPiece& prepared() {
         if (!prepared_) prepared_ = prepare(piece_, objectives_, &axes_);
         return *prepared_;
     }
 
-    void sweep_all() {
-        if (late_.stage.size() == late_.planes.candidates.size()) return;
+    void evaluate_solids() {
         const PreparedPiece& piece = prepared();
-        parallel_for(0, groups_.size(), [&](std::size_t g) {
+        parallel_for(0, planes_.size(), [&](std::size_t n) {
             context_.check_cancelled();
-            const Group& group = groups_[g];
-            std::vector<double> offsets;
-            for (std::size_t i = group.first; i < group.last; ++i)
-                offsets.push_back(late_.planes.candidates[i].plane.offset);
-            auto swept = sweep_solids(piece, late_.planes.candidates[group.first].plane.normal, offsets);
-            std::move(swept.begin(), swept.end(),
-                      late_.planes.evaluations.begin() + static_cast<std::ptrdiff_t>(group.first));
+            std::vector<EvaluatedPlane*> planes;
+            for (EvaluatedPlane& plane : planes_[n]) planes.push_back(&plane);
+            evaluate(planes, TermStage::solids, piece, objectives_);
         });
-        late_.stage.assign(late_.planes.candidates.size(), LateStage::fast);
     }
 
-    void update(const Group& group) {
-        for (std::size_t i = group.first; i < group.last; ++i) {
-            const std::optional<CutEvaluation>& evaluation = late_.planes.evaluations[i];
-            const std::optional<Terms> t = evaluation ? terms(*evaluation, others_, objectives_, scan_) : std::nullopt;
-            known_[i] = t ? Known{t->total, is_forbidden(*t, objectives_)} : Known{};
-        }
-    }
-
-    bool is_open(std::size_t i, double most) const {
-        return late_.stage[i] != LateStage::whole && known_[i].total < infinite && known_[i].total <= most + tie;
+    double bound(const EvaluatedPlane& plane) const {
+        const std::optional<Terms> t =
+            plane.evaluation ? terms(*plane.evaluation, others_, objectives_, scan_) : std::nullopt;
+        if (!t || (plane.stage == TermStage::whole && is_forbidden(*t, objectives_))) return never;
+        return t->total;
     }
 
     // Evaluates the next terms of the planes of a normal that may be among the best: fragility first, because it takes
     // a tenth of the time of the others and tells more planes apart.
-    void advance(const Group& group, double most) {
+    void advance(const PreparedPiece& piece, std::size_t normal, std::span<const double> bounds, double most) {
         context_.check_cancelled();
-        std::vector<std::size_t> chosen;
-        LateStage stage = LateStage::fragility;
-        for (std::size_t i = group.first; i < group.last; ++i) {
-            if (!is_open(i, most)) continue;
-            if (late_.stage[i] == LateStage::fast && stage == LateStage::fragility) {
-                stage = LateStage::fast;
-                chosen.clear();
-            }
-            if (late_.stage[i] == stage) chosen.push_back(i);
+        PlanesOfNormal& planes = planes_[normal];
+        std::vector<std::size_t> open;
+        TermStage from = TermStage::whole;
+        for (std::size_t k = 0; k < planes.size(); ++k) {
+            if (!can_win(planes[k], bounds[k], most)) continue;
+            open.push_back(k);
+            from = std::min(from, planes[k].stage);
         }
-        if (stage == LateStage::fragility && most == infinite && objectives_.forbidden.empty()) keep_least(chosen);
-        evaluate(chosen, stage);
-        update(group);
-    }
-
-    // While no limit is known: as many planes as are asked for, the least totals.
-    void keep_least(std::vector<std::size_t>& chosen) const {
-        if (chosen.size() <= best_) return;
-        std::stable_sort(chosen.begin(), chosen.end(),
-                         [&](std::size_t a, std::size_t b) { return known_[a].total < known_[b].total; });
-        chosen.resize(best_);
-        std::sort(chosen.begin(), chosen.end());
-    }
-
-    // The terms that follow `stage`, of planes of one normal.
-    void evaluate(const std::vector<std::size_t>& chosen, LateStage stage) {
-        std::vector<double> offsets;
-        std::vector<std::optional<CutEvaluation>> evaluations;
-        for (const std::size_t i : chosen) {
-            offsets.push_back(late_.planes.candidates[i].plane.offset);
-            evaluations.push_back(std::move(late_.planes.evaluations[i]));
-        }
-        const Vec3 normal = late_.planes.candidates[chosen.front()].plane.normal;
-        const auto add = stage == LateStage::fast ? add_fragility : add_section_terms;
-        add(*prepared_, normal, offsets, objectives_, evaluations);
-        for (std::size_t k = 0; k < chosen.size(); ++k) {
-            late_.planes.evaluations[chosen[k]] = std::move(evaluations[k]);
-            late_.stage[chosen[k]] = stage == LateStage::fast ? LateStage::fragility : LateStage::whole;
-        }
-    }
-
-    // The total of the last of the best planes that are known; infinite if there are too few.
-    double limit() const {
-        std::vector<double> totals;
-        for (std::size_t i = 0; i < known_.size(); ++i) {
-            if (late_.stage[i] == LateStage::whole && known_[i].total < infinite && !known_[i].is_out)
-                totals.push_back(known_[i].total);
-        }
-        if (totals.size() < best_) return infinite;
-        const auto last = totals.begin() + static_cast<std::ptrdiff_t>(best_) - 1;
-        std::nth_element(totals.begin(), last, totals.end());
-        return *last;
-    }
-
-    // The normals with planes that are not known and may be among the best, the least total first.
-    std::vector<std::size_t> can_win(double most) const {
-        std::vector<std::pair<double, std::size_t>> open;
-        for (std::size_t g = 0; g < groups_.size(); ++g) {
-            double least = infinite;
-            for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
-                if (is_open(i, most)) least = std::min(least, known_[i].total);
-            }
-            if (least < infinite) open.emplace_back(least, g);
-        }
-        std::sort(open.begin(), open.end());
-        std::vector<std::size_t> groups;
-        groups.reserve(open.size());
-        for (const auto& [least, g] : open) groups.push_back(g);
-        return groups;
+        std::erase_if(open, [&](std::size_t k) { return planes[k].stage != from; });
+        const bool is_last = from == TermStage::fragility;
+        if (is_last && most == never && objectives_.forbidden.empty()) keep_least(open, best_, bounds);
+        std::vector<EvaluatedPlane*> chosen;
+        for (const std::size_t k : open) chosen.push_back(&planes[k]);
+        evaluate(chosen, is_last ? TermStage::whole : TermStage::fragility, piece, objectives_);
     }
 
     const Piece& piece_;
     const Objectives& objectives_;
     const Context& context_;
-    LateEvaluations& late_;
+    std::vector<PlanesOfNormal>& planes_;
     std::array<Vec3, 3> axes_;
     std::vector<PieceShare> others_;
     ScanShare scan_;
     std::size_t best_;
-    std::vector<Group> groups_;
-    std::vector<Known> known_;  // per candidate
+    std::size_t count_ = 0;  // of the planes
     std::optional<PreparedPiece> prepared_;
 };
 

@@ -69,17 +69,35 @@ ScanShare scan_share(const Segmentation& segmentation, std::size_t piece, const 
     return share;
 }
 
+std::optional<Ranked> rank(const Candidate& candidate, const std::optional<CutEvaluation>& evaluation,
+                           std::span<const PieceShare> others, const Objectives& objectives, const ScanShare& scan) {
+    const std::optional<Terms> t = evaluation ? terms(*evaluation, others, objectives, scan) : std::nullopt;
+    if (!t) return std::nullopt;
+    return Ranked{candidate.plane,     candidate.wanted_offset,    candidate.normal_index, candidate.offset_index, *t,
+                  evaluation->seam_mm, evaluation->coarse_sections};
+}
+
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
                          const Objectives& objectives, const ScanShare& scan) {
     assert(evaluations.candidates.size() == evaluations.evaluations.size());
     std::vector<Ranked> ranked;
     for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
-        if (!evaluations.evaluations[i]) continue;
-        const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives, scan);
-        if (!t) continue;
-        const Candidate& c = evaluations.candidates[i];
-        ranked.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t,
-                          evaluations.evaluations[i]->seam_mm, evaluations.evaluations[i]->coarse_sections});
+        const auto one = rank(evaluations.candidates[i], evaluations.evaluations[i], others, objectives, scan);
+        if (one) ranked.push_back(*one);
+    }
+    sort_ranking(ranked, objectives);
+    return ranked;
+}
+
+std::vector<Ranked> rank(std::span<const PlanesOfNormal> planes, std::span<const PieceShare> others,
+                         const Objectives& objectives, const ScanShare& scan) {
+    std::vector<Ranked> ranked;
+    for (const PlanesOfNormal& of_normal : planes) {
+        for (const EvaluatedPlane& plane : of_normal) {
+            if (plane.stage != TermStage::whole) continue;
+            const auto one = rank(plane.candidate, plane.evaluation, others, objectives, scan);
+            if (one) ranked.push_back(*one);
+        }
     }
     sort_ranking(ranked, objectives);
     return ranked;

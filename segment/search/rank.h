@@ -29,10 +29,17 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
 ScanShare scan_share(const Segmentation& segmentation, std::size_t piece, const Objectives& objectives,
                      EvaluationCache& cache);
 
-// The candidates that have terms (objectives.h), best first; those that are forbidden after all others. `others`: the
-// shares of the other pieces.
+// One candidate; nothing if it misses or has no terms (objectives.h). `others`: the shares of the other pieces.
+std::optional<Ranked> rank(const Candidate& candidate, const std::optional<CutEvaluation>& evaluation,
+                           std::span<const PieceShare> others, const Objectives& objectives, const ScanShare& scan);
+
+// The candidates that have terms, best first; those that are forbidden after all others.
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
                          const Objectives& objectives, const ScanShare& scan = {});
+
+// The same of the planes that are evaluated whole.
+std::vector<Ranked> rank(std::span<const PlanesOfNormal> planes, std::span<const PieceShare> others,
+                         const Objectives& objectives, const ScanShare& scan);
 
 // Sorts by the totals as they are; what is forbidden comes last.
 void sort_ranking(std::vector<Ranked>& ranked, const Objectives& objectives);

@@ -77,21 +77,18 @@ std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::si
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
                                  const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
     const Piece& target = segmentation.pieces[piece];
-    PieceEvaluations alone{{plane}, {cache.evaluation_of(target, plane, context)}};
-    if (alone.evaluations.front() && is_ranked_by_access(target, settings)) {
-        const Objectives& objectives = settings.objectives;
-        CutEvaluation& evaluation = *alone.evaluations.front();
-        evaluation.access = cut_access(target, plane.plane, objectives.tilt_deg);
-        if (evaluation.solids.size() > 2) {
-            evaluation.access->unreachable_mm2 =
+    const Objectives& objectives = settings.objectives;
+    std::optional<CutEvaluation> evaluation = cache.evaluation_of(target, plane, context);
+    if (evaluation && is_ranked_by_access(target, settings)) {
+        evaluation->access = cut_access(target, plane.plane, objectives.tilt_deg);
+        if (evaluation->solids.size() > 2) {
+            evaluation->access->unreachable_mm2 =
                 unreachable_when_cut_mm2(target, plane.plane, objectives.fragment_volume_mm3, objectives.tilt_deg)
-                    .value_or(evaluation.access->unreachable_mm2);
+                    .value_or(evaluation->access->unreachable_mm2);
         }
     }
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    const std::vector<Ranked> ranked =
-        rank(alone, others, settings.objectives, scan_share(segmentation, piece, settings.objectives, cache));
-    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
+    return rank(plane, evaluation, shares_of_others(segmentation, piece, objectives, cache), objectives,
+                scan_share(segmentation, piece, objectives, cache));
 }
 
 }  // namespace qchopper

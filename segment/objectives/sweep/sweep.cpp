@@ -260,12 +260,6 @@ void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const d
     }
 }
 
-void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
-    add_fragility(prepared, normal, offsets, objectives, evaluations);
-    add_section_terms(prepared, normal, offsets, objectives, evaluations);
-}
-
 void add_section_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                        const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
     add_structure(prepared, normal, offsets, evaluations);

@@ -34,8 +34,5 @@ void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const d
 // Seam, structure, connector and symmetry where they have a weight.
 void add_section_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                        const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
-// Both.
-void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 
 }  // namespace qchopper

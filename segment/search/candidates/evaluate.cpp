@@ -105,4 +105,44 @@ SolidEvaluation measure(const Piece& piece) {
     return solid;
 }
 
+std::vector<PlanesOfNormal> by_normal(std::span<const Candidate> candidates) {
+    std::vector<PlanesOfNormal> planes;
+    for (const auto& [first, last] : groups_of(candidates)) {
+        PlanesOfNormal& of_normal = planes.emplace_back();
+        for (std::size_t i = first; i < last; ++i) of_normal.push_back({.candidate = candidates[i]});
+    }
+    return planes;
+}
+
+std::size_t count_evaluated(std::span<const PlanesOfNormal> planes, TermStage stage) {
+    std::ptrdiff_t count = 0;
+    for (const PlanesOfNormal& of_normal : planes) {
+        count += std::count_if(of_normal.begin(), of_normal.end(),
+                               [stage](const EvaluatedPlane& plane) { return plane.stage >= stage; });
+    }
+    return static_cast<std::size_t>(count);
+}
+
+void evaluate(std::span<EvaluatedPlane* const> planes, TermStage to, const PreparedPiece& prepared,
+              const Objectives& objectives) {
+    if (planes.empty()) return;
+    const Vec3 normal = planes.front()->candidate.plane.normal;
+    const TermStage from = planes.front()->stage;
+    std::vector<double> offsets;
+    std::vector<std::optional<CutEvaluation>> evaluations;
+    for (EvaluatedPlane* plane : planes) {
+        offsets.push_back(plane->candidate.plane.offset);
+        evaluations.push_back(std::move(plane->evaluation));
+    }
+    if (from < TermStage::solids) evaluations = sweep_solids(prepared, normal, offsets);
+    if (from < TermStage::fragility && to >= TermStage::fragility) {
+        add_fragility(prepared, normal, offsets, objectives, evaluations);
+    }
+    if (to == TermStage::whole) add_section_terms(prepared, normal, offsets, objectives, evaluations);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        planes[i]->evaluation = std::move(evaluations[i]);
+        planes[i]->stage = to;
+    }
+}
+
 }  // namespace qchopper

@@ -12,7 +12,7 @@
 #include "base/files/file.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/search/size_candidates.h"
+#include "segment/search/candidates/size_candidates.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -101,7 +101,7 @@ TEST(AccessRank, WithConnectorAndSeamTheBestPlaneIsThatOfAllOfThemToo) {
     EXPECT_EQ(best[0].terms.connector, all[0].terms.connector);
     EXPECT_NEAR(best[0].terms.total, all[0].terms.total, 1e-12);
     EXPECT_GT(best[0].terms.seam, 0);
-    EXPECT_LT(cache.access(segmentation.pieces[0]).evaluated.size(), 800U);
+    EXPECT_LT(count_evaluated(cache.access(segmentation.pieces[0]).planes, TermStage::solids), 800U);
     const auto held = std::find_if(all.begin(), all.end(), [](const Ranked& r) { return r.terms.connector < 1; });
     EXPECT_NE(held, all.end());
 }
@@ -112,7 +112,7 @@ TEST(AccessRank, FewPlanesAreEvaluated) {
     EvaluationCache cache(settings.objectives, settings.candidates);
     rank_by_access(segmentation, 0, settings, cache, {});
     EXPECT_GE(cache.access(segmentation.pieces[0]).normals.size(), 129U);
-    EXPECT_LT(cache.access(segmentation.pieces[0]).evaluated.size(), 400U);
+    EXPECT_LT(count_evaluated(cache.access(segmentation.pieces[0]).planes, TermStage::solids), 400U);
 }
 
 // The plane is nudged by less than the samples notice.

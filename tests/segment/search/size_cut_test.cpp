@@ -1,4 +1,4 @@
-#include "segment/search/size_candidates.h"
+#include "segment/search/candidates/size_candidates.h"
 
 #include <gtest/gtest.h>
 

@@ -300,7 +300,8 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
     const PreparedPiece prepared = prepare(piece, o);
     const auto whole = sweep(prepared, n, offsets, o);
     auto staged = sweep_solids(prepared, n, offsets);
-    add_late_terms(prepared, n, offsets, o, staged);
+    add_fragility(prepared, n, offsets, o, staged);
+    add_section_terms(prepared, n, offsets, o, staged);
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         ASSERT_EQ(whole[k].has_value(), staged[k].has_value());
         if (!whole[k]) continue;
@@ -343,7 +344,8 @@ TEST(Connector, TheValuesOfAPlaneDoNotDependOnTheOthersThatAreAsked) {
                     some.push_back(offsets[k]);
                     asked.push_back(quick[k]);
                 }
-                add_late_terms(prepared, n, some, o, asked);
+                add_fragility(prepared, n, some, o, asked);
+                add_section_terms(prepared, n, some, o, asked);
                 for (std::size_t i = 0; i < of.size(); ++i) {
                     ASSERT_EQ(whole[of[i]].has_value(), asked[i].has_value()) << name;
                     if (!asked[i]) continue;

@@ -1,6 +1,6 @@
 // Every offset along every axis is counted, O(offsets).
 
-#include "segment/search/size_candidates.h"
+#include "segment/search/candidates/size_candidates.h"
 
 #include <algorithm>
 #include <cmath>
