@@ -1,5 +1,5 @@
 // CLAIM, the command, RELEASE, each repeated as the same frame until its acknowledgement is in STATUS: the cell
-// executes a frame once, however often it arrives. Everything runs in the caller's thread.
+// executes a frame once, however often it arrives. Everything runs in the caller's thread. O(1) for each poll.
 
 #include "devices/hand_off/cell_control.h"
 

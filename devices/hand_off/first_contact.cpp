@@ -7,7 +7,6 @@
 #include <iterator>
 #include <thread>
 
-#include "devices/hand_off/dispatch_options.h"
 #include "devices/wire/registers.h"
 
 namespace qchopper {

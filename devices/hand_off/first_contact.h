@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/context.h"
-#include "devices/hand_off/hand_off_input.h"
+#include "devices/hand_off/hand_off_state.h"
 #include "devices/wire/bus.h"
 #include "devices/wire/device_error.h"
 

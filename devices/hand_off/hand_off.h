@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "devices/hand_off/hand_off_input.h"
 #include "devices/hand_off/hand_off_state.h"
 
 namespace qchopper {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "devices/hand_off/hand_off_input.h"
 #include "devices/hand_off/hand_off_state.h"
 
 namespace qchopper::hand_off {

@@ -1,4 +1,4 @@
-// The state of the hand-off of one job, its steps and its actions.
+// The state of the hand-off of one job, its steps, its actions and the answers to them.
 //
 // Seconds of a monotonic clock. Plain values; advance() in hand_off.h changes them.
 
@@ -12,6 +12,8 @@
 #include "devices/hand_off/dispatch_options.h"
 #include "devices/journal/job_outcome.h"
 #include "devices/wire/blocks.h"
+#include "devices/wire/bus.h"
+#include "devices/wire/codec.h"
 #include "devices/wire/device_error.h"
 
 namespace qchopper {
@@ -70,6 +72,21 @@ struct HandOffAction {
     Heartbeat heartbeat;       // of heartbeat
     std::uint32_t offset = 0;  // of write_chunk, in bytes
     double until_s = 0;        // of wait
+};
+
+// The answer to one action.
+struct HandOffInput {
+    BusEnd end = BusEnd::ok;
+    int exception = 0;                        // Modbus exception code if end is exception
+    BlockFault fault = BlockFault::none;      // with `lost`: registers came, but not a right block
+    std::string why;                          // if end is not ok, or if stage_file or put_file failed
+    bool is_alien = false;                    // with `lost`: bytes came that are no answer to the request
+    std::optional<Status> status;             // after read_status that ended ok
+    std::optional<ResultRecord> result;       // after read_result that ended ok
+    std::optional<Identity> identity;         // after read_identity that ended ok
+    CellCommand request = CellCommand::none;  // Unhold or Clear, which another program asks to pass to the cell
+    bool cancelled = false;                   // the caller asks to stop
+    double cancelled_for_s = 0;               // since so long, as far as is known
 };
 
 // The state. The first is HandOff{}. start_sent: under the present epoch.

@@ -137,10 +137,15 @@ constexpr LayoutRow<T> checksum(Field field) {
             [](T&, const Field& f, RegisterReader& from) { from.skip(f.count); }};
 }
 
+// Each begins where the one before ends.
 template <class T, std::size_t n>
 constexpr std::array<Field, n> fields_of(const LayoutRow<T> (&rows)[n]) {
     std::array<Field, n> fields{};
-    for (std::size_t i = 0; i < n; ++i) fields[i] = rows[i].field;
+    for (std::size_t i = 0; i < n; ++i) {
+        fields[i] = rows[i].field;
+        const bool is_next = i == 0 || fields[i].address == fields[i - 1].address + fields[i - 1].count;
+        if (!is_next) throw "there is a gap before the field";
+    }
     return fields;
 }
 

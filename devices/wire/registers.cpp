@@ -1,6 +1,5 @@
-// The register map as tables: one row for every field of every block, in the order of addresses.
-//
-// The tables are constants; field_named() searches a block linearly.
+// The register map as tables: one row for every field of every block, in the order of addresses. The tables are
+// constants; field_named() searches a block linearly, O(fields).
 
 #include "devices/wire/registers.h"
 
@@ -203,36 +202,22 @@ constexpr std::tuple<std::span<const LayoutRow<T>>...> tables_of(std::span<const
 constexpr std::tuple tables = tables_of<Status, ResultRecord, Identity, Command, WireTicket, Chunk, Heartbeat>(
     status_rows, result_rows, identity_rows, command_rows, ticket_rows, chunk_rows, heartbeat_rows);
 
-constexpr std::array status_fields = fields_of(status_rows);
-constexpr std::array result_fields = fields_of(result_rows);
-constexpr std::array identity_fields = fields_of(identity_rows);
-constexpr std::array command_fields = fields_of(command_rows);
-constexpr std::array ticket_fields = fields_of(ticket_rows);
-constexpr std::array chunk_fields = fields_of(chunk_rows);
-constexpr std::array heartbeat_fields = fields_of(heartbeat_rows);
-
-constexpr bool is_gapless(std::span<const Field> fields) {
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-        if (fields[i].address != fields[i - 1].address + fields[i - 1].count) return false;
-    }
-    return true;
-}
-static_assert(is_gapless(status_fields) && is_gapless(result_fields) && is_gapless(command_fields));
-static_assert(is_gapless(identity_fields));
-static_assert(is_gapless(ticket_fields) && is_gapless(chunk_fields) && is_gapless(heartbeat_fields));
-static_assert(chunk_fields.back().address == chunk_fields.front().address + chunk_head);
+template <const auto& rows>
+constexpr std::array fields = fields_of(rows);
+static_assert(fields<chunk_rows>.back().address == fields<chunk_rows>.front().address + chunk_head);
 
 }  // namespace
 
-constexpr Block status_block{"STATUS", Side::input, 0, 100, false, status_fields, "what the cell says of itself"};
+constexpr Block status_block{"STATUS", Side::input, 0, 100, false, fields<status_rows>, "what the cell says of itself"};
 constexpr Block result_block{
-    "RESULT", Side::input, 200, 60, false, result_fields, "the answer to QUERY and QUERY_FILE"};
-constexpr Block identity_block{"IDENTITY", Side::input, 300, 24, false, identity_fields, "which memory the cell has"};
-constexpr Block command_block{"COMMAND", Side::holding, 0, 60, true, command_fields, "one command"};
-constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, ticket_fields, "the job in numbers"};
+    "RESULT", Side::input, 200, 60, false, fields<result_rows>, "the answer to QUERY and QUERY_FILE"};
+constexpr Block identity_block{
+    "IDENTITY", Side::input, 300, 24, false, fields<identity_rows>, "which memory the cell has"};
+constexpr Block command_block{"COMMAND", Side::holding, 0, 60, true, fields<command_rows>, "one command"};
+constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, fields<ticket_rows>, "the job in numbers"};
 constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signature_fields, "of the ticket"};
-constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, chunk_fields, "a slice of the job file"};
-constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, heartbeat_fields, "keeps the lease"};
+constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, fields<chunk_rows>, "a slice of the job file"};
+constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, fields<heartbeat_rows>, "keeps the lease"};
 
 template <class T>
 std::span<const LayoutRow<T>> rows_of() {

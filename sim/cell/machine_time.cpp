@@ -227,7 +227,8 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
     if (!cell.pending || cell.pending->number != number) return;
     const WireTicket& ticket = cell.job.ticket;
     AckResult result = AckResult::ok;
-    if (check.end == FileCheck::End::missing) result = AckResult::file_missing;
+    if (check.end == FileCheck::End::missing)
+        result = AckResult::file_missing;
     else if (check.end == FileCheck::End::io_error)
         result = AckResult::store_io;
     else if (check.size != ticket.file_size)

@@ -1,8 +1,8 @@
 // The language of scripts and of the commands on standard input of a simulated cell: what a person at the cell does,
 // what goes wrong, and when. One line is one command; docs/user/cell-sim.md has the grammar.
 //
-// A line is words, numbers among them; "#" begins a comment, an empty line says nothing. Every command and every fault is
-// read back as the line that was written (tests/sim/cell/script_test.cpp).
+// A line is words, numbers among them; "#" begins a comment, an empty line says nothing. Every command and every fault
+// is read back as the line that was written (tests/sim/cell/script_test.cpp).
 
 #pragma once
 

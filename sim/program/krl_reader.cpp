@@ -1,4 +1,5 @@
-// The main program is executed line by line; a call of a chunk executes the chunk's lines at its place.
+// The main program is executed line by line; a call of a chunk executes the chunk's lines at its place. O(bytes), and a
+// search among the files for each call.
 
 #include "sim/program/krl_reader.h"
 

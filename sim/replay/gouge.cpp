@@ -1,6 +1,7 @@
 // Per direction the target is turned into the direction's frame, where a tree gives the triangles in the box of a move,
-// which reaches up to the top of the target: the shank is swept too. Moves are shared out in fixed lots, whose results
-// are merged in their order.
+// which reaches up to the top of the target: the shank is swept too. A triangle is bisected as long as its bound leaves
+// a deeper point (branch and bound). Moves are shared out in fixed lots, whose results are merged in their order.
+// O(moves * (log triangles + triangles near the move * their parts)).
 
 #include "sim/replay/gouge.h"
 

@@ -1,4 +1,5 @@
-// O(lines of drills * holes).
+// A state per hole; of each line the offset from the axes and the depth along them are compared with bounds. O(lines of
+// drills * holes).
 
 #include "sim/replay/hole_check.h"
 

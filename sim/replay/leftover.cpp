@@ -1,4 +1,5 @@
-// Triangles are cut into equal parts by lines along their sides; each part is judged at its middle.
+// Triangles are cut into equal parts by lines along their sides; each part is judged at its middle. O(parts * (cells
+// within its distance + closings)), beside the closings (reachable.h).
 
 #include "sim/replay/leftover.h"
 

@@ -1,5 +1,5 @@
 // Step by step, with the joints, the table and the spindle as the state. Ways of the tip are linear in position and
-// turn about one axis.
+// turn about one axis. O(poses * bodies^2).
 
 #include "sim/replay/machine_walk.h"
 

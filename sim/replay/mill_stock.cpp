@@ -1,5 +1,6 @@
 // The rules are those of the facts about milling: a rapid is a joint move or a line faster than the tool's window, and
-// removes nothing; the window holds for lines that remove foam, from half its least feed on the way down.
+// removes nothing; the window holds for lines that remove foam, from half its least feed on the way down. O(cells under
+// the tool) for each line, O(points of its bodies) for each pose of a joint move.
 
 #include "sim/replay/mill_stock.h"
 

@@ -1,5 +1,5 @@
-// Heights of triangles at the centres of cells by barycentric coordinates; dilation and erosion tap by tap, whole rows
-// at a time.
+// Heights of triangles at the centres of cells by barycentric coordinates; grey dilation and erosion (J. Serra: Image
+// Analysis and Mathematical Morphology, 1982) tap by tap, whole rows at a time. O(cells * (radius / cell)^2).
 
 #include "sim/replay/reachable.h"
 

@@ -1,4 +1,4 @@
-// One stage after the other; each is in a file of its own.
+// One stage after the other; each is in a file of its own. The cost is that of the stages.
 
 #include "sim/replay/replay.h"
 

@@ -48,19 +48,15 @@ std::vector<std::string> called_programs(const Cell& cell) {
 void SignalWalk::take(const ProgramStep& step, const std::string& called) {
     const Spindle& spindle = machine_.spindle;
     const std::string number = std::to_string(step.number);
-    switch (step.kind) {
-        case StepKind::output:
-            return take_output(step);
-        case StepKind::analog_output:
-            if (!is_signal(spindle.speed, SignalKind::output, number)) return refuse(step, "$ANOUT[" + number + "]");
-            return take_speed(step.value / spindle.speed->scale);
-        case StepKind::wait_input:
-            if (!is_signal(spindle.at_speed, SignalKind::input, number)) return refuse(step, "$IN[" + number + "]");
-            return reach_speed();
-        case StepKind::call:
-            return take_call(step, called);
-        default:
-            return;
+    if (step.kind == StepKind::output) take_output(step);
+    if (step.kind == StepKind::call) take_call(step, called);
+    if (step.kind == StepKind::analog_output) {
+        if (!is_signal(spindle.speed, SignalKind::output, number)) return refuse(step, "$ANOUT[" + number + "]");
+        take_speed(step.value / spindle.speed->scale);
+    }
+    if (step.kind == StepKind::wait_input) {
+        if (!is_signal(spindle.at_speed, SignalKind::input, number)) return refuse(step, "$IN[" + number + "]");
+        reach_speed();
     }
 }
 

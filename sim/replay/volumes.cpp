@@ -1,6 +1,7 @@
 // Rows of lines, each on one thread: crossings of the triangles over the row, sorted by line and height, give the
 // intervals of the target. A line on an edge may be counted by both triangles or by none: rows and columns are shifted
-// by a small irrational part of a cell, and a line with an odd number of crossings is left out.
+// by a small irrational part of a cell, and a line with an odd number of crossings is left out. O(lines * (crossings +
+// maps)).
 
 #include "sim/replay/volumes.h"
 

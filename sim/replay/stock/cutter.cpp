@@ -1,5 +1,5 @@
 // The lower surface of a swept convex body is the least of the body's over all places along the move, a convex function
-// of the place. For a ball and a flat end it is solved; for the rest it is searched.
+// of the place. For a ball and a flat end it is solved; for the rest it is searched. O(1).
 
 #include "sim/replay/stock/cutter.h"
 

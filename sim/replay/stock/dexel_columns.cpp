@@ -1,5 +1,6 @@
-// Subtraction from a part of a column is that of the whole, because removals are unions of intervals. Intervals that
-// are empty in single precision are left out.
+// Columns of intervals after T. Van Hook: Real-Time Shaded NC Milling Display, 1986. Subtraction from a part of a
+// column is that of the whole, because removals are unions of intervals. Intervals that are empty in single precision
+// are left out. O(intervals + cells of the other maps along the part).
 
 #include "sim/replay/stock/dexel_columns.h"
 

@@ -1,5 +1,6 @@
-// A line is followed through the cells of a map from border to border of tiles that do not exist, else of cells; in a
-// cell the height of the line is linear, so that where it leaves the removed part is solved, not sampled.
+// A line is followed through the cells of a map from border to border (J. Amanatides, A. Woo: A Fast Voxel Traversal
+// Algorithm for Ray Tracing, 1987) of tiles that do not exist, else of cells; in a cell the height of the line is
+// linear, so that where it leaves the removed part is solved, not sampled. O(cells along the line).
 
 #include "sim/replay/stock/dexel_map.h"
 

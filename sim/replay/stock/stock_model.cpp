@@ -1,5 +1,5 @@
 // Cells under the swept tool, row by row; the height at a cell is that of cutter.h. Volumes are sums over cells in a
-// fixed order.
+// fixed order. O(cells under the tool), and for a line that of all maps (dexel_map.h).
 
 #include "sim/replay/stock/stock_model.h"
 
