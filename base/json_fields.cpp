@@ -63,11 +63,6 @@ void put(Json& at, Vec3 value) {
     put(at, std::array{value.x, value.y, value.z});
 }
 
-void put(Json& at, const Box& value) {
-    put(at["min"], value.min);
-    put(at["max"], value.max);
-}
-
 void put(Json& at, const Pose& value) {
     put(at["rows"], value.row);
     put(at["shift"], value.shift);
@@ -115,11 +110,6 @@ void take(const Json& json, const std::string& key, Vec3& value) {
     take(json[0], key, value.x);
     take(json[1], key, value.y);
     take(json[2], key, value.z);
-}
-
-void take(const Json& json, const std::string& /*key*/, Box& value) {
-    take(member(json, "min"), "min", value.min);
-    take(member(json, "max"), "max", value.max);
 }
 
 void take(const Json& json, const std::string& key, Pose& value) {

@@ -45,6 +45,12 @@ namespace qchopper {
 template <class T, class Struct>
 concept Of = std::same_as<std::remove_const_t<T>, Struct>;
 
+template <class V, Of<Box> T>
+void fields(V& v, T& box) {
+    v("min", box.min);
+    v("max", box.max);
+}
+
 namespace json_values {
 
 using Json = nlohmann::ordered_json;
@@ -63,7 +69,6 @@ void put(Json& at, const char* value);
 void put(Json& at, const std::string& value);
 void put(Json& at, const std::filesystem::path& value);
 void put(Json& at, Vec3 value);           // three numbers
-void put(Json& at, const Box& value);     // {min, max}
 void put(Json& at, const Pose& value);    // {rows, shift}
 void put(Json& at, const Sha256& value);  // hexadecimal digits
 void put(Json& at, const Uuid& value);    // hexadecimal digits
@@ -76,7 +81,6 @@ void take(const Json& json, const std::string& key, double& value);  // finite
 void take(const Json& json, const std::string& key, std::string& value);
 void take(const Json& json, const std::string& key, std::filesystem::path& value);
 void take(const Json& json, const std::string& key, Vec3& value);
-void take(const Json& json, const std::string& key, Box& value);
 void take(const Json& json, const std::string& key, Pose& value);  // a rotation, to 1e-6
 void take(const Json& json, const std::string& key, Sha256& value);
 void take(const Json& json, const std::string& key, Uuid& value);
