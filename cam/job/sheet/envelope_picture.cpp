@@ -87,21 +87,9 @@ bool names(const std::string& pair, const std::string& body) {
     return begins && (end == pair.size() || pair[end] == ' ');
 }
 
-TriangleMesh edges_of(const Setup& setup) {
-    const Vec3 size = setup.block.size;
-    const Vec3 low = setup.block_box().min;
-    const double half = 0.003 * norm(size);
+TriangleMesh bars_of(const Setup& setup) {
     TriangleMesh bars;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int side = 0; side < 4; ++side) {
-            Vec3 from = low;
-            from[(axis + 1) % 3] += (side & 1) != 0 ? size[(axis + 1) % 3] : 0;
-            from[(axis + 2) % 3] += (side & 2) != 0 ? size[(axis + 2) % 3] : 0;
-            Vec3 to = from;
-            to[axis] += size[axis];
-            add_box(bars, {from - Vec3{half, half, half}, to + Vec3{half, half, half}});
-        }
-    }
+    for (const Box& edge : edges_of(setup.block_box())) add_bar(bars, edge, 0.003 * norm(setup.block.size));
     return bars;
 }
 
@@ -125,7 +113,7 @@ std::vector<Body> bodies_of(const JobInput& input, const ReachabilityMargin& mar
     for (Body& body : bodies) {
         for (Vec3& p : body.mesh.points) p = apply(cell_in_setup, p);
     }
-    bodies.push_back({"block", block_colour, edges_of(input.setup)});
+    bodies.push_back({"block", block_colour, bars_of(input.setup)});
     return bodies;
 }
 

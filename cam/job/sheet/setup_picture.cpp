@@ -25,32 +25,15 @@ constexpr Rgb bar_colour{105, 110, 120};
 constexpr Rgb arrow_colour{70, 75, 85};
 constexpr Rgb touch_colour{25, 27, 30};
 
-// Bars of so many mm along those edges of a box whose middle the test accepts.
-template <class Test>
-void add_bars(TriangleMesh& mesh, const Box& box, double width, Test is_wanted) {
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const bool at_max : {false, true}) {
-            for (const bool at_other_max : {false, true}) {
-                const int second = (axis + 1) % 3;
-                const int third = (axis + 2) % 3;
-                Box edge = box;
-                edge.min[second] = edge.max[second] = at_max ? box.max[second] : box.min[second];
-                edge.min[third] = edge.max[third] = at_other_max ? box.max[third] : box.min[third];
-                if (!is_wanted(edge)) continue;
-                const Vec3 half{width / 2, width / 2, width / 2};
-                add_box(mesh, {edge.min - half, edge.max + half});
-            }
-        }
-    }
-}
-
 TriangleMesh bars_of(const Setup& setup, double width) {
     TriangleMesh bars;
     Box box = setup.block_box();
-    add_bars(bars, box, width, [](const Box&) { return true; });
+    for (const Box& edge : edges_of(box)) add_bar(bars, edge, width / 2);
     if (setup.spoil <= 0) return bars;
     box.max.z = 0;  // where the piece is parted from the spoil layer
-    add_bars(bars, box, width / 2, [](const Box& edge) { return edge.min.z == 0 && edge.max.z == 0; });
+    for (const Box& edge : edges_of(box)) {
+        if (edge.min.z == 0 && edge.max.z == 0) add_bar(bars, edge, width / 2 / 2);
+    }
     return bars;
 }
 

@@ -23,6 +23,24 @@ void add_box(TriangleMesh& mesh, const Box& box) {
     }
 }
 
+std::array<Box, 12> edges_of(const Box& box) {
+    std::array<Box, 12> edges;
+    edges.fill(box);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const int axis = static_cast<int>(i / 4);
+        for (const auto& [across, is_at_max] :
+             {std::pair((axis + 1) % 3, (i & 2) != 0), std::pair((axis + 2) % 3, (i & 1) != 0)}) {
+            edges[i].min[across] = edges[i].max[across] = is_at_max ? box.max[across] : box.min[across];
+        }
+    }
+    return edges;
+}
+
+void add_bar(TriangleMesh& mesh, const Box& edge, double half_width) {
+    const Vec3 half{half_width, half_width, half_width};
+    add_box(mesh, {edge.min - half, edge.max + half});
+}
+
 TriangleMesh turned_profile(Vec3 origin, Vec3 axis, const Profile& profile, std::uint32_t sides) {
     const Vec3 aside = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 u = normalized(cross(axis, aside));
