@@ -6,7 +6,7 @@
 #include <array>
 
 #include "base/text.h"
-#include "cam/setup/holder_clearance.h"
+#include "cam/setup/limiting_tools.h"
 #include "segment/access/sampled_piece.h"
 #include "segment/access/tool_directions.h"
 #include "segment/mesh/oriented_box.h"
@@ -59,12 +59,7 @@ std::string tilt_remedy(const AdviceInput& input, const Cell&) {
 }
 
 std::string narrow_remedy(const AdviceInput&, const Cell& cell) {
-    double least = cell.tool.diameter;
-    if (cell.machine) {
-        least = cell.machine->tools.front().diameter;
-        for (const CuttingTool& tool : cell.machine->tools) least = std::min(least, tool.diameter);
-    }
-    return "a smaller tool than that of " + millimetres(least);
+    return "a smaller tool than that of " + millimetres(2 * limiting_tools(cell).smallest_radius);
 }
 
 std::string inside_remedy(const AdviceInput&, const Cell&) {
