@@ -3,30 +3,8 @@
 #include "app/cli/commands.h"
 #include "app/cli/confirm.h"
 #include "app/cli/exit_code.h"
-#include "app/dispatch/dispatch_project.h"
 
 namespace qchopper {
-namespace {
-
-constexpr const char* dispatch_schema = "qchopper-dispatch-1";
-
-DispatchRequest request_of(const DispatchArguments& arguments) {
-    DispatchRequest request;
-    request.project = arguments.project;
-    request.piece = arguments.piece;
-    request.to = arguments.to;
-    request.drop = arguments.drop;
-    request.chunks = arguments.chunks;
-    request.is_confirmed = arguments.yes;
-    request.accept_unreachable = arguments.accept_unreachable;
-    request.accept_workholding = arguments.accept_workholding;
-    request.again = arguments.again;
-    request.rehearse = arguments.rehearse;
-    request.takeover_code = arguments.takeover_code.value_or(0);
-    return request;
-}
-
-}  // namespace
 
 int show(const DispatchReport& report, const std::string& schema, Terminal& terminal) {
     for (const std::string& sentence : report.refused) terminal.error(sentence);
@@ -38,8 +16,9 @@ int show(const DispatchReport& report, const std::string& schema, Terminal& term
 }
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
-    const DispatchAnswer answer = dispatch_project(request_of(arguments), operator_at_terminal(), terminal.context());
-    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, dispatch_schema, terminal);
+    const DispatchAnswer answer = dispatch_project(arguments, operator_at_terminal(), terminal.context());
+    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, "qchopper-dispatch-1",
+                terminal);
 }
 
 }  // namespace qchopper

@@ -11,7 +11,8 @@
 namespace qchopper {
 
 int run(const SetupArguments& a, Terminal& terminal) {
-    const SetupRequest request{a.piece, a.base, a.max_directions, ascending(a.tools), a.is_free};
+    SetupRequest request = a;
+    request.tools = ascending(a.tools);
     const SetupAnswer answer = setup_project(without_slash(a.project), request, version, terminal.context());
     if (answer.job) terminal.warn(program_warnings(*answer.job, answer.folder));
     terminal.warn(warnings(answer));

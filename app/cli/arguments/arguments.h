@@ -12,7 +12,10 @@
 #include <variant>
 #include <vector>
 
+#include "app/dispatch/dispatch_project.h"
+#include "app/dispatch/dry_run.h"
 #include "app/engine/export_pieces.h"
+#include "app/engine/setup_project.h"
 
 namespace qchopper {
 
@@ -143,13 +146,8 @@ struct CellsCheckArguments {
     std::filesystem::path file;
 };
 
-struct SetupArguments {
+struct SetupArguments : SetupRequest {
     std::filesystem::path project;
-    std::optional<std::string> piece;
-    std::optional<int> base;
-    std::optional<std::size_t> max_directions;
-    std::vector<std::uint16_t> tools;
-    bool is_free = false;  // --auto
 };
 
 struct VerifyArguments {
@@ -158,11 +156,7 @@ struct VerifyArguments {
     std::optional<std::string> piece;
 };
 
-struct DryRunArguments {
-    std::filesystem::path project;
-    std::optional<std::string> piece;
-    double speed = 100'000;  // simulated seconds per second
-};
+struct DryRunArguments : DryRunRequest {};
 
 struct CellSimArguments {
     std::string listen = "127.0.0.1:15020";
@@ -175,19 +169,7 @@ struct CellSimArguments {
     bool list_faults = false;
 };
 
-struct DispatchArguments {
-    std::filesystem::path project;
-    std::optional<std::string> piece;
-    std::optional<std::string> to;
-    std::optional<std::filesystem::path> drop;
-    bool yes = false;
-    bool accept_unreachable = false;
-    bool accept_workholding = false;
-    bool again = false;
-    bool chunks = false;
-    bool rehearse = false;
-    std::optional<std::uint32_t> takeover_code;
-};
+struct DispatchArguments : DispatchRequest {};
 
 // Which cell: by its address, or by the file that names it.
 struct CellChoiceArguments {

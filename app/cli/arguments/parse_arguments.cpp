@@ -148,8 +148,7 @@ struct Parser {
     void add_inspect() {
         CLI::App* c = app.add_subcommand("inspect", "report what a scan is and what is wrong with it");
         c->add_option("SCAN", inspect.scan, scan_formats + "; - is standard input")->required();
-        c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
-            ->check(one_of({"mm", "cm", "m", "in"}));
+        add_units(c, "file", inspect.units);
         c->add_flag("--deep", inspect.deep, "find faces that run through each other too");
         add_common(c, common, [this] { common.command = inspect; });
     }
@@ -157,7 +156,7 @@ struct Parser {
     void add_explain() {
         CLI::App* c =
             app.add_subcommand("explain", "explain why a cut lies where it lies, with a plot of what all planes cost");
-        c->add_option("PROJECT", explain.project, "the folder NAME.qch")->required();
+        add_project(c, explain.project);
         c->add_option("--cut", explain.cut, "the number of the cut (the last)")
             ->check(number_between(1, 1e6, "the number of a cut"));
         c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
@@ -166,7 +165,7 @@ struct Parser {
 
     void add_export() {
         CLI::App* c = app.add_subcommand("export", "write pieces as 3MF, STL, PLY or GLB for other programs");
-        c->add_option("PROJECT", exported.project, "the folder NAME.qch")->required();
+        add_project(c, exported.project);
         c->add_option("--format", exported.format, "3mf, stl, ply or glb")
             ->required()
             ->check(one_of({"3mf", "stl", "ply", "glb"}));
@@ -220,7 +219,7 @@ struct Parser {
     void add_setup() {
         CLI::App* c =
             app.add_subcommand("setup", "show how pieces lie and what the tool reaches, and choose otherwise");
-        c->add_option("PROJECT", setup.project, "the folder NAME.qch")->required();
+        add_project(c, setup.project);
         CLI::Option* piece = c->add_option("--piece", setup.piece, "this piece, with all ways to lay it");
         CLI::Option* base = c->add_option("--base", setup.base, "lay the piece on the base of this number")
                                 ->check(number_between(0, 1e6, "the number of a base"))
@@ -249,7 +248,7 @@ struct Parser {
 
     void add_dry_run() {
         CLI::App* c = app.add_subcommand("dry-run", "hand every piece to a simulated cell inside, over real TCP");
-        c->add_option("PROJECT", dry_run.project, "the folder NAME.qch")->required();
+        add_project(c, dry_run.project);
         c->add_option("--piece", dry_run.piece, "only this piece");
         c->add_option("--speed", dry_run.speed, "simulated seconds per second (100000)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
@@ -273,11 +272,11 @@ struct Parser {
 
     void add_dispatch() {
         CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
-        c->add_option("PROJECT", dispatch.project, "the folder NAME.qch")->required();
+        add_project(c, dispatch.project);
         c->add_option("--piece", dispatch.piece, "only this piece");
         c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
         c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
-        c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
+        c->add_flag("--yes", dispatch.is_confirmed, "do not ask before a real cell is set in motion");
         c->add_flag("--accept-unreachable", dispatch.accept_unreachable,
                     "send jobs too of which the tool does not reach more of the surface than the limit allows");
         c->add_flag("--accept-workholding", dispatch.accept_workholding,

@@ -67,8 +67,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     add_repair_choices(c, a);
     c->add_flag("--resolve-self-intersections", a.resolve_self_intersections,
                 "repair places where the scan runs through itself; cutting does not need that");
-    c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
-        ->check(one_of({"mm", "cm", "m", "in"}));
+    add_units(c, "scan", a.units);
     add_scale(c, a.scale);
     c->add_option("--cell", a.cell, "the cell file (docs/user/cell-file.md)");
     add_tools(c, a.tools);
@@ -158,6 +157,15 @@ CLI::Option* add_tools(CLI::App* command, std::vector<std::uint16_t>& tools) {
         ->check(number_between(1, 65535, "the number of a tool"));
 }
 
+void add_project(CLI::App* command, std::filesystem::path& project) {
+    command->add_option("PROJECT", project, "the folder NAME.qch")->required();
+}
+
+void add_units(CLI::App* command, const std::string& of, std::optional<std::string>& units) {
+    command->add_option("--units", units, "what one unit of the " + of + " is: mm, cm, m, in")
+        ->check(one_of({"mm", "cm", "m", "in"}));
+}
+
 void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed) {
     command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
@@ -170,8 +178,7 @@ void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
     CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and report what was done");
     c->add_option("SCAN", repair.scan, scan_formats + "; - is standard input")->required();
     c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
-    c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
-        ->check(one_of({"mm", "cm", "m", "in"}));
+    add_units(c, "file", repair.units);
     add_scale(c, repair.scale);
     add_repair_choices(c, repair);
     add_fragments(c, repair.fragments);

@@ -5,7 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/cli/arguments/arguments.h"
@@ -20,8 +23,10 @@ namespace qchopper {
 // Adds the options that every command has. `on_parsed` is called once if this command is given.
 void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed);
 
-// Adds --tools, which several commands have.
+// What several commands have: --tools, the folder of a project, and --units of a scan or file.
 CLI::Option* add_tools(CLI::App* command, std::vector<std::uint16_t>& tools);
+void add_project(CLI::App* command, std::filesystem::path& project);
+void add_units(CLI::App* command, const std::string& of, std::optional<std::string>& units);
 
 // Each adds its command, whose arguments become common.command if it is given.
 void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common);
