@@ -80,15 +80,8 @@ class RequestHandler {
         answer_.done = "Discarded: " + list + "; --undo brings back what this decision left out.";
     }
 
-    std::size_t index_of(const std::string& name) {
-        if (const auto named = piece_named(project_.segmentation(), name)) return *named;
-        std::string names;
-        for (const Piece& p : project_.segmentation().pieces) names += (names.empty() ? "" : ", ") + p.name;
-        throw InputError(InputFault::use, "there is no piece " + name + " now", "the pieces are " + names);
-    }
-
     std::size_t piece() {
-        if (request_.piece) return index_of(*request_.piece);
+        if (request_.piece) return index_of_piece(project_.segmentation(), *request_.piece);
         const OpenProject::Next next = project_.next(checks_);
         if (!next.piece) {
             throw InputError(InputFault::mesh, "the scan holds nothing but fragments",

@@ -4,28 +4,13 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "app/store/replay.h"
 #include "base/text.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
-namespace {
-
-void check_names(const DiscardRequest& request, const Segmentation& segmentation) {
-    std::string names;
-    for (const Piece& p : segmentation.pieces) names += (names.empty() ? "" : ", ") + p.name;
-    for (const std::string& name : request.pieces) {
-        const bool is_there = std::any_of(segmentation.pieces.begin(), segmentation.pieces.end(),
-                                          [&](const Piece& p) { return p.name == name; });
-        if (!is_there)
-            throw InputError(InputFault::use, "there is no piece " + name + " now", "the pieces are " + names);
-    }
-}
-
-}  // namespace
-
 std::vector<std::string> pieces_meant(const DiscardRequest& request, const Segmentation& segmentation) {
-    check_names(request, segmentation);
+    for (const std::string& name : request.pieces) index_of_piece(segmentation, name);
     std::vector<std::string> meant;
     for (const Piece& p : segmentation.pieces) {
         const bool is_named = std::find(request.pieces.begin(), request.pieces.end(), p.name) != request.pieces.end();

@@ -252,13 +252,8 @@ bool OpenProject::decide_reset() {
 
 // The other outputs do not depend on it: of a piece whose setup changes the job alone is removed.
 bool OpenProject::decide_setup(const SetupOrder& order) {
-    const auto current = [&](const std::string& piece) {
-        for (const SetupOrder& o : committed_setup_orders(project_.history)) {
-            if (o.piece == piece) return o;
-        }
-        return SetupOrder{piece, {}, {}};
-    };
-    if (!piece_named(segmentation(), order.piece) || current(order.piece) == order) return false;
+    if (!piece_named(segmentation(), order.piece)) return false;
+    if (committed_setup_order(project_.history, order.piece) == order) return false;
     decide(project_.history, order);
     remove_sheets(folder_);
     std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order.piece; });

@@ -34,11 +34,7 @@ void check_base(const Piece& piece, int base) {
 // The order in force with what is requested changed.
 SetupOrder order_of(const Project& project, const SetupRequest& request) {
     SetupOrder order{*request.piece, {}, {}};
-    if (!request.is_free) {
-        for (const SetupOrder& o : committed_setup_orders(project.history)) {
-            if (o.piece == order.piece) order = o;
-        }
-    }
+    if (!request.is_free) order = committed_setup_order(project.history, order.piece);
     if (request.base) order.base = request.base;
     if (request.max_directions) order.max_directions = request.max_directions;
     if (!request.tools.empty()) order.tools = request.tools;
@@ -47,9 +43,8 @@ SetupOrder order_of(const Project& project, const SetupRequest& request) {
 
 PieceSetups setups_of(OpenProject& project, const Piece& piece) {
     PieceSetups shown{piece.name, {}, project.setups()->placed(piece)};
-    for (const SetupOrder& o : committed_setup_orders(project.project().history)) {
-        if (o.piece == piece.name) shown.order = o;
-    }
+    const SetupOrder order = committed_setup_order(project.project().history, piece.name);
+    if (!order.is_free()) shown.order = order;
     return shown;
 }
 

@@ -13,6 +13,7 @@
 #include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_program.h"
 #include "app/store/project_folder.h"
+#include "app/store/replay.h"
 #include "base/files/file.h"
 #include "base/parallel.h"
 #include "base/shell_word.h"
@@ -25,17 +26,6 @@
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
-namespace {
-
-namespace fs = std::filesystem;
-
-std::size_t place_of(const std::string& piece, const Segmentation& segmentation) {
-    const auto found = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
-                                    [&](const Piece& p) { return p.name == piece; });
-    return static_cast<std::size_t>(found - segmentation.pieces.begin());
-}
-
-}  // namespace
 
 bool PieceReport::is_proven() const {
     return !verdicts.empty() &&
@@ -48,6 +38,8 @@ double max_unreachable(const Project& project, const Cell& cell) {
 }
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct MadeJob {
     PieceReport report;
@@ -62,10 +54,8 @@ std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& proj
     input.access = access;
     input.inside_share = inside_share(piece);
     input.tilt_deg = max_tilt_deg(cell);
-    input.max_directions = SetupOptions{}.max_directions;
-    for (const SetupOrder& order : committed_setup_orders(project.history)) {
-        if (order.piece == piece.name) input.max_directions = order.max_directions.value_or(input.max_directions);
-    }
+    const SetupOrder order = committed_setup_order(project.history, piece.name);
+    input.max_directions = order.max_directions.value_or(SetupOptions{}.max_directions);
     const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
     input.segment_command = "qchopper segment " + of_piece + " --step";
     input.setup_command = "qchopper setup " + of_piece;
@@ -197,8 +187,9 @@ void record_jobs(Project& project, const Segmentation& segmentation, std::size_t
                  const std::vector<WrittenJob>& written) {
     const std::string& piece = segmentation.pieces[index].name;
     std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece; });
-    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
-                                    [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
+    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(), [&](const WrittenJob& job) {
+        return piece_named(segmentation, job.piece).value_or(segmentation.pieces.size()) > index;
+    });
     project.jobs.insert(later, written.begin(), written.end());
 }
 

@@ -36,6 +36,12 @@ namespace {
 // Of a piece's surface; what more of it arm, holder and spindle keep out of reach is a reason to cut the piece.
 constexpr double max_by_machine = 0.02;
 
+template <class T, class Make>
+const T& once(std::optional<T>& known, const Make& make) {
+    if (!known) known = make();
+    return *known;
+}
+
 UnreachableSurface unreachable_surface(const Setup& setup) {
     return {setup.access.unreachable_mm2(), setup.access.unreachable_share()};
 }
@@ -100,15 +106,11 @@ void Setups::place(std::span<const Piece> pieces, const Context& context) {
 }
 
 const MappedSetup& Setups::mapped(const Piece& piece) {
-    std::optional<MappedSetup>& mapped = stages_of(piece).mapped;
-    if (!mapped) mapped = mapped_of(piece);
-    return *mapped;
+    return once(stages_of(piece).mapped, [&] { return mapped_of(piece); });
 }
 
 const PlacedSetup& Setups::placed(const Piece& piece) {
-    std::optional<PlacedSetup>& placed = stages_of(piece).placed;
-    if (!placed) placed = placed_of(piece, mapped(piece), {});
-    return *placed;
+    return once(stages_of(piece).placed, [&] { return placed_of(piece, mapped(piece), {}); });
 }
 
 void Setups::keep_only(std::span<const Piece> pieces) {
@@ -122,27 +124,19 @@ void Setups::keep_only(std::span<const Piece> pieces) {
 }
 
 bool Setups::fits(const Piece& piece) {
-    std::optional<bool>& fits = stages_of(piece).fits;
-    if (!fits) fits = fits_cell_and_machine(piece, planned_);
-    return *fits;
+    return once(stages_of(piece).fits, [&] { return fits_cell_and_machine(piece, planned_); });
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {
-    std::optional<UnreachableSurface>& sampled = stages_of(piece).sampled;
-    if (!sampled) sampled = sampled_of(piece);
-    return *sampled;
+    return once(stages_of(piece).sampled, [&] { return sampled_of(piece); });
 }
 
 UnreachableSurface Setups::unreachable_without_holder(const Piece& piece) {
-    std::optional<UnreachableSurface>& surface = stages_of(piece).without_holder;
-    if (!surface) surface = unreachable_of(max_tilt_deg(cell_))(piece);
-    return *surface;
+    return once(stages_of(piece).without_holder, [&] { return unreachable_of(max_tilt_deg(cell_))(piece); });
 }
 
 bool Setups::is_machinable(const Piece& piece) {
-    std::optional<bool>& is_machinable = stages_of(piece).is_machinable;
-    if (!is_machinable) is_machinable = find_whether_machinable(piece);
-    return *is_machinable;
+    return once(stages_of(piece).is_machinable, [&] { return find_whether_machinable(piece); });
 }
 
 bool Setups::find_whether_machinable(const Piece& piece) {

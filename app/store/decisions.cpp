@@ -179,6 +179,13 @@ std::vector<SetupOrder> committed_setup_orders(const History& history) {
     return list;
 }
 
+SetupOrder committed_setup_order(const History& history, const std::string& piece) {
+    for (const SetupOrder& order : committed_setup_orders(history)) {
+        if (order.piece == piece) return order;
+    }
+    return {piece, {}, {}};
+}
+
 void decide(History& history, Decision decision) {
     assert(history.committed <= history.decisions.size());
     history.decisions.resize(history.committed, Reset{});

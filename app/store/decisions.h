@@ -101,6 +101,8 @@ std::vector<Discard> committed_discards(const History& history);
 Weights committed_weights(const History& history);
 // The last one of each piece that is neither cut nor discarded since, sorted by the names of the pieces.
 std::vector<SetupOrder> committed_setup_orders(const History& history);
+// That of one piece, which is free if there is none.
+SetupOrder committed_setup_order(const History& history, const std::string& piece);
 
 // Adds a decision after those in force and removes those that were undone.
 void decide(History& history, Decision decision);

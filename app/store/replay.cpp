@@ -118,6 +118,13 @@ std::optional<std::size_t> piece_named(const Segmentation& segmentation, const s
     return std::nullopt;
 }
 
+std::size_t index_of_piece(const Segmentation& segmentation, const std::string& name) {
+    if (const auto named = piece_named(segmentation, name)) return *named;
+    std::string names;
+    for (const Piece& p : segmentation.pieces) names += (names.empty() ? "" : ", ") + p.name;
+    throw InputError(InputFault::use, "there is no piece " + name + " now", "the pieces are " + names);
+}
+
 void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedModel>& stress) {
     for (Piece& piece : pieces) piece.stress = stress;
 }

@@ -44,6 +44,8 @@ std::map<std::int32_t, Piece> divided_pieces(const Project& project, const Trian
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);
+// The same. Throws InputError (use) if no piece has that name.
+std::size_t index_of_piece(const Segmentation& segmentation, const std::string& name);
 
 // Gives the pieces of a scan its stress; null: none.
 void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedModel>& stress);
