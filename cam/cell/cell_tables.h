@@ -5,12 +5,12 @@
 
 #pragma once
 
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/toml_reader.h"
+#include "base/units.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_keys.h"
 
@@ -20,7 +20,6 @@ using Origins = std::vector<ValueOrigin>;
 
 constexpr double smallest = 0.001;    // mm; lengths on the wire and in files are rounded to 0.001 to 0.01 mm
 constexpr double farthest_2 = 5'000;  // mm; a coordinate that is larger is in a wrong unit
-constexpr double degree = std::numbers::pi / 180;
 
 // Adds a row for each value that the table gives. `name` is the table's name in the rows.
 void add_origins(const TomlReader& reader, const TableKeys& table, const std::string& name, Origins& origins);

@@ -9,12 +9,13 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/units.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double joint_margin = 3 * pi / 180;
+constexpr double joint_margin = radians(3);
 constexpr double max_squares = 500;  // in a row or column
 
 JointRange narrowed(JointRange range, AngleRange limits) {

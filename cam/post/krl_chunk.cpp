@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "base/box.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/post/krl_signals.h"
 
 namespace qchopper {
@@ -22,7 +22,6 @@ constexpr int point_decimals = 2;
 constexpr int speed_decimals = 4;
 constexpr double rounding_unit = 0.001;  // mm, of $APO.CDIS
 constexpr double speed_unit = 0.1;       // mm/s, of the last decimal in m/s
-constexpr double degrees = 180 / std::numbers::pi;
 
 // In m/s, rounded down so that no speed is above the one that was asked for.
 std::string metres_per_s(double speed_mm_s) {
@@ -104,7 +103,8 @@ void KrlChunks::add_settings(const ProgramOperation& operation, KrlText& text) c
     add_base(text);
     text.line("$ACC.CP = " + krl::number("$ACC.CP", machine_.program.acceleration / 1000, 4, 100));
     for (const char* name : {"$VEL.ORI1", "$VEL.ORI2"}) {
-        text.line(std::string(name) + " = " + krl::number(name, degrees * machine_.program.turn_speed, 4, 10'000));
+        text.line(std::string(name) + " = " +
+                  krl::number(name, degrees_per_radian * machine_.program.turn_speed, 4, 10'000));
     }
     text.line("$APO.CDIS = " + krl::number("$APO.CDIS", rounding, 3, 1000.001));
 }

@@ -8,24 +8,24 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/cell/kuka_angles.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double farthest = 5000;  // mm
 constexpr double max_degrees = 3600;
 
 // An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
 std::string angle(const char* name, double value, int decimals) {
-    const std::string text = krl::number(name, degrees * value, decimals, max_degrees);
+    const std::string text = krl::number(name, degrees_per_radian * value, decimals, max_degrees);
     return text == "-" + fixed(180, decimals) ? text.substr(1) : text;
 }
 
 // Where the decimals make 90 or -90 degrees of B, only A - C or A + C is left: C is 0, as everywhere in a program.
 KukaAngles rounded_gimbal(KukaAngles abc, int decimals) {
-    const double size = std::abs(degrees * abc.b);
+    const double size = std::abs(degrees_per_radian * abc.b);
     if (size < 89 || fixed(size, decimals) != fixed(90, decimals)) return abc;
     const double turn = abc.b > 0 ? abc.a - abc.c : abc.a + abc.c;
     return {std::remainder(turn, 2 * std::numbers::pi), abc.b, 0};
@@ -81,14 +81,14 @@ std::string joints(const Joints& joints) {
     std::string text;
     for (std::size_t i = 0; i < axes_of_arm; ++i) {
         const std::string name = "A" + std::to_string(i + 1);
-        text += (i > 0 ? "," : "") + name + " " + number(name, degrees * joints[i], 3, max_degrees);
+        text += (i > 0 ? "," : "") + name + " " + number(name, degrees_per_radian * joints[i], 3, max_degrees);
     }
     return text;
 }
 
 std::string external(int axis, double angle) {
     const std::string name = "E" + std::to_string(axis);
-    return name + " " + number(name, degrees * angle, 3, max_degrees);
+    return name + " " + number(name, degrees_per_radian * angle, 3, max_degrees);
 }
 
 }  // namespace krl

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "cam/cell/reach_map.h"
 #include "cam/program/posture_search.h"
 #include "cam/program/sampled_path.h"
@@ -16,9 +17,9 @@ namespace qchopper {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double longest_step = 0.5 * std::numbers::pi / 180;  // some 20 mm of the tip
-constexpr double coarse_step = 2 * std::numbers::pi / 180;
-constexpr double longest_table_step = 5 * std::numbers::pi / 180;
+constexpr double longest_step = radians(0.5);  // some 20 mm of the tip
+constexpr double coarse_step = radians(2);
+constexpr double longest_table_step = radians(5);
 constexpr double rounding = 1e-9;  // of relative margins
 constexpr std::array<double, 5> retracts{0, 50, 100, 200, 400};
 
