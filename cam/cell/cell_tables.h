@@ -28,8 +28,6 @@ void add_defaults(const TomlReader& reader, Keys keys, const std::string& name, 
 
 // From the keys position (mm) and abc_deg: rotation Rz(A) Ry(B) Rx(C).
 Pose read_pose(const TomlReader& reader);
-// An interval of two numbers, the first below the second.
-AngleRange read_angle_range(const TomlReader& reader, std::string_view key);
 
 // Of the cell's outermost table.
 Robot read_robot(const TomlReader& root, Origins& origins);

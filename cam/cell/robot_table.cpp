@@ -62,6 +62,13 @@ AngleRange common(const JointRange& joint, const AngleRange& cable) {
     return {std::max(joint.min, cable.min), std::min(joint.max, cable.max)};
 }
 
+// An interval of two numbers, the first below the second.
+AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
+    const std::vector<double> range = reader.numbers(key, 2, -max_turns, max_turns);
+    if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
+    return {range[0] * degree, range[1] * degree};
+}
+
 CableLimits read_cable(const TomlReader& reader, const JointRanges& ranges) {
     const CableLimits cable{read_angle_range(reader, "axis_4_deg"), read_angle_range(reader, "axis_6_deg")};
     const AngleRange axis_4 = common(ranges[3], cable.axis_4);
@@ -108,12 +115,6 @@ Pose read_pose(const TomlReader& reader) {
     const std::vector<double> abc = reader.numbers("abc_deg", 3, -360, 360);
     const Vec3 position = reader.vector("position", -farthest_2, farthest_2);
     return pose_of({abc[0] * degree, abc[1] * degree, abc[2] * degree}, position);
-}
-
-AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
-    const std::vector<double> range = reader.numbers(key, 2, -max_turns, max_turns);
-    if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
-    return {range[0] * degree, range[1] * degree};
 }
 
 Robot read_robot(const TomlReader& root, Origins& origins) {

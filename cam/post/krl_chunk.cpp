@@ -42,14 +42,15 @@ std::string box_words(const Box& box) {
     return text;
 }
 
-}  // namespace
-
+// Sets a speed if it is another one: a line $VEL.CP.
 void set_speed(double speed_mm_s, double& current, KrlText& text) {
     if (speed_mm_s == current) return;
     const std::string wanted = metres_per_s(speed_mm_s);
     if (current <= 0 || wanted != metres_per_s(current)) text.line("$VEL.CP = " + wanted);
     current = speed_mm_s;
 }
+
+}  // namespace
 
 void begin_program(const std::string& name, KrlText& text) {
     if (name.size() > longest_name) {

@@ -46,9 +46,6 @@ class KrlChunks {
     const CellMachine& machine_;
 };
 
-// Sets a speed if it is another one: a line $VEL.CP.
-void set_speed(double speed_mm_s, double& current, KrlText& text);
-
 // &ACCESS to DEF. Throws InputError (use) if the name is longer than 24 characters.
 void begin_program(const std::string& name, KrlText& text);
 

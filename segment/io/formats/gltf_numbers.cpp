@@ -6,12 +6,9 @@
 #include <bit>
 
 namespace qchopper {
+namespace {
 
-std::optional<GltfComponent> gltf_component(int code) {
-    if (code < 5120 || code > 5126 || code == 5124) return {};
-    return static_cast<GltfComponent>(code);
-}
-
+// Bytes of one number.
 std::size_t size_of(GltfComponent component) {
     switch (component) {
         case GltfComponent::i8:
@@ -23,6 +20,13 @@ std::size_t size_of(GltfComponent component) {
         default:
             return 4;
     }
+}
+
+}  // namespace
+
+std::optional<GltfComponent> gltf_component(int code) {
+    if (code < 5120 || code > 5126 || code == 5124) return {};
+    return static_cast<GltfComponent>(code);
 }
 
 std::uint32_t GltfNumbers::whole(std::size_t i, std::size_t component_of_it) const {

@@ -14,8 +14,6 @@ enum class GltfComponent { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5
 
 // Nothing for a number that is no such code.
 std::optional<GltfComponent> gltf_component(int code);
-// Bytes of one number.
-std::size_t size_of(GltfComponent component);
 
 // Elements of a fixed number of components. As numbers_in() returns them, every element lies in `bytes`.
 struct GltfNumbers {
