@@ -2,7 +2,7 @@
 // ways, by the triangle of shoulder, elbow and wrist centre; what is left of the rotation decides 4 to 6. The paper
 // takes both corners of the triangle by acos, which near a stretched arm loses half of the digits in each; here the
 // corner at the shoulder follows from the one at the elbow, and angle 6 from angle 4, so that the loss in one is made
-// up by the other and the pose stays exact. About 20 inverse functions for 8 answers. Joint speeds: Gaussian
+// up by the other and the pose stays exact. O(1): about 20 inverse functions for 8 answers. Joint speeds: Gaussian
 // elimination with partial pivoting.
 
 #include "cam/cell/arm.h"

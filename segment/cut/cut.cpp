@@ -1,5 +1,6 @@
 // Triangles are copied to their half; crossed ones are divided at the points of the section (plane_section.h), which
-// both halves share; the caps triangulate its loops (cap.h). One pass over the triangles for each half.
+// both halves share; the caps triangulate its loops (cap.h). One pass over the triangles for each half:
+// O(triangles), besides the caps.
 
 #include "segment/cut/cut.h"
 

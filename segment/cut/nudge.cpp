@@ -1,5 +1,6 @@
 // Heights of the points near any wanted offset are sorted once for all offsets of a normal; the gaps between them in
-// the window of an offset are compared by width, cap area, distance and order.
+// the window of an offset are compared by width, cap area, distance and order. O(points log offsets) for a normal, and
+// O(triangles) for each gap that is as wide as the widest of its window.
 
 #include "segment/cut/nudge.h"
 

@@ -1,4 +1,4 @@
-// The texts of the report, made of its counts alone.
+// The texts of the report, made of its counts alone. O(1).
 
 #include "segment/repair/report.h"
 

@@ -12,7 +12,7 @@ from collections import Counter
 from ratchet import ROOT, known_faults, sources
 
 MOST_LINES = 150  # of a source without a head
-COST = re.compile(r"\bO\(|\b[Cc]osts?\b|\blinear(ly)?\b|\bmemory\b|\bseconds?\b|\bminutes?\b|\d m?s\b|\btakes? (most|as long)")
+COST = re.compile(r"\bO\(|\b[Cc]osts?\b|\blinear(ly)?\b|\bmemory\b|seconds?\b|\bminutes?\b|\d [mn]?s\b|\btakes? (most|as long)")
 NO_COST = ("app/cli/", "app/report/", "cam/job/sheet/", "app/store/project_json.cpp", "app/store/value_json.cpp")
 
 
