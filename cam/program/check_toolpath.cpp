@@ -13,13 +13,14 @@
 namespace qchopper {
 namespace {
 
+constexpr double farthest = 5000;  // mm
+
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
     throw InputError(InputFault::use, where + ": " + what);
 }
 
 bool is_near(Vec3 point) {
-    return std::abs(point.x) < farthest_program_mm && std::abs(point.y) < farthest_program_mm &&
-           std::abs(point.z) < farthest_program_mm;
+    return std::abs(point.x) < farthest && std::abs(point.y) < farthest && std::abs(point.z) < farthest;
 }
 
 void check_value(const std::string& where, const char* name, double value, double least, double largest) {

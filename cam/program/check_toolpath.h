@@ -8,10 +8,8 @@
 
 namespace qchopper {
 
-// No coordinate of a program is farther than this.
-inline constexpr double farthest_program_mm = 5000;
-
-// Throws InputError (use) that names operation, run and move. Precondition: the cell has a machine. O(moves).
+// No coordinate may be farther than 5 m from the origin. Throws InputError (use) that names operation, run and move.
+// Precondition: the cell has a machine. O(moves).
 void check_toolpath(const Toolpath& toolpath, const Setup& setup, const Cell& cell);
 
 }  // namespace qchopper
