@@ -1,7 +1,7 @@
-// A shared library for LD_PRELOAD: writes one line per call of write, fsync and send into the file ORDER_LOG, in the
-// order of the calls. For sync_order_test.cpp.
+// A shared library for LD_PRELOAD: writes one line per call of write, fsync, rename and send into the file ORDER_LOG,
+// in the order of the calls, for the files of a journal and for job files. For sync_order_test.cpp.
 //
-//   wrote PATH    synced PATH    sent HEX
+//   wrote PATH    synced PATH    renamed PATH    sent HEX
 
 #include <dlfcn.h>
 #include <sys/socket.h>
@@ -34,18 +34,18 @@ std::string path_of(int descriptor) {
     return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : std::string("?");
 }
 
-bool is_journal(const std::string& path) {
-    return path.find("journal.sqlite") != std::string::npos;
+bool is_noted(const std::string& path) {
+    return path.find("journal.sqlite") != std::string::npos || path.find(".qjob") != std::string::npos;
 }
 
 void note_write(int descriptor) {
     const std::string path = path_of(descriptor);
-    if (is_journal(path)) note("wrote " + path);
+    if (is_noted(path)) note("wrote " + path);
 }
 
 void note_sync(int descriptor) {
     const std::string path = path_of(descriptor);
-    if (is_journal(path)) note("synced " + path);
+    if (is_noted(path)) note("synced " + path);
 }
 
 }  // namespace
@@ -74,6 +74,12 @@ int fdatasync(int fd) {
     note_sync(fd);
     static const auto real = next<int (*)(int)>("fdatasync");
     return real(fd);
+}
+
+int rename(const char* from, const char* to) {
+    if (is_noted(from)) note(std::string("renamed ") + from);
+    static const auto real = next<int (*)(const char*, const char*)>("rename");
+    return real(from, to);
 }
 
 ssize_t send(int fd, const void* data, size_t size, int flags) {

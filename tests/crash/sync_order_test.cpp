@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "tests/sim/cell/cell_rig.h"
 
@@ -28,7 +30,8 @@ int command_in(const std::string& line) {
     return std::stoi(line.substr(begin + 2 * cmd_at, 4), nullptr, 16);
 }
 
-TEST(SyncOrder, EveryCommandFollowsASyncOfItsRow) {
+// What a dispatch wrote, synced, renamed and sent; it has started its job once.
+std::vector<std::string> order_of_dispatch() {
     const rig::Folder folder;
     std::filesystem::create_directory(folder.path / "drop");
     CellSim cell(rig::quick_cell(folder.path / "drop"));
@@ -38,14 +41,18 @@ TEST(SyncOrder, EveryCommandFollowsASyncOfItsRow) {
                              " " QCHOPPER_DISPATCH_ONCE " " + std::to_string(cell.port()) + " " +
                              (folder.path / "state").string() + " " + (folder.path / "drop").string() + " > " +
                              (folder.path / "out").string();
-    ASSERT_EQ(std::system(call.c_str()), 0);
+    EXPECT_EQ(std::system(call.c_str()), 0);
     EXPECT_EQ(cell.status().starts_total, 1U);
+    return lines_of(log);
+}
+
+TEST(SyncOrder, EveryCommandFollowsASyncOfItsRow) {
     bool has_write = false;
     bool is_synced = false;
     int commands = 0;
     int starts = 0;
     std::string last_frame;
-    for (const std::string& line : lines_of(log)) {
+    for (const std::string& line : order_of_dispatch()) {
         if (line.starts_with("wrote ") && line.ends_with("-wal")) {
             has_write = true;
             is_synced = false;
@@ -62,6 +69,19 @@ TEST(SyncOrder, EveryCommandFollowsASyncOfItsRow) {
     }
     EXPECT_GE(commands, 11);
     EXPECT_EQ(starts, 1);
+}
+
+TEST(SyncOrder, AJobFileIsSyncedBeforeItIsRenamed) {
+    const auto name_in = [](const std::string& line) { return line.substr(line.rfind('/') + 1); };
+    std::set<std::string> synced;
+    int renamed = 0;
+    for (const std::string& line : order_of_dispatch()) {
+        if (line.starts_with("synced ")) synced.insert(name_in(line));
+        if (!line.starts_with("renamed ") || line.find(".tmp.") == std::string::npos) continue;
+        ++renamed;
+        EXPECT_TRUE(synced.contains(name_in(line))) << line;
+    }
+    EXPECT_GE(renamed, 1);
 }
 
 }  // namespace
