@@ -1,4 +1,5 @@
-// The state of the simulated cell's controller, as plain values: its limits, its memory, its job, its lease.
+// The state of the simulated cell's controller, as plain values: its limits, its memory, its job, its lease;
+// and what it needs from outside.
 //
 // Times in ms (`_ms`) of the steady clock unless the name says unix; lengths in mm in the base frame of the program.
 
@@ -6,6 +7,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -188,6 +190,26 @@ struct CellState {
     std::uint32_t store_free_kib = 0;
     std::uint64_t random = 1;  // state of the generator of tokens and receipts
     CellTime booted;
+};
+
+// The answer to a pending VERIFY.
+struct FileCheck {
+    enum class End { ok, missing, io_error };
+    End end = End::missing;
+    std::uint64_t size = 0;  // bytes
+    Sha256 sha256{};         // of the copy in the store, if its size is right
+};
+
+// Called from the functions of machine.h, in their thread. Any of them may be empty.
+struct CellHooks {
+    // Writes the memory so that it outlives a power cut. False: it could not, and the command is refused.
+    std::function<bool(const CellMemory&)> save;
+    std::function<void(const std::string&)> log;
+    // Removes copies of finished jobs until so many bytes are free or none is left; returns the free KiB.
+    std::function<std::uint32_t(const CellMemory&, std::uint64_t bytes)> remove_old_copies;
+    // The marks of the store, in another memory. Both or none; without them the cell does not find an older copy.
+    std::function<SaveMarks()> read_marks;
+    std::function<bool(const SaveMarks&)> write_marks;  // false: it could not
 };
 
 }  // namespace qchopper

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "sim/cell/machine.h"
+#include "sim/cell/cell_state.h"
 
 namespace qchopper::cell {
 
