@@ -139,6 +139,10 @@ double TomlReader::number(std::string_view key, double least, double most) const
     return checked(*this, key, need(*this, *table_->keys, key), least, most);
 }
 
+void TomlReader::number_if_given(std::string_view key, double least, double most, double& value) const {
+    if (has(key)) value = number(key, least, most);
+}
+
 std::uint32_t TomlReader::whole(std::string_view key, std::uint32_t least, std::uint32_t most) const {
     const toml::node& node = need(*this, *table_->keys, key);
     if (!node.is_integer())
@@ -199,6 +203,12 @@ TomlReader TomlReader::table(std::string_view key, Keys known) const {
     const TomlReader reader(std::make_shared<const Table>(Table{table_->whole, node.as_table()}), file_,
                             full(key) + ".");
     return reader.with_keys(known);
+}
+
+TomlReader TomlReader::table_if_given(std::string_view key, Keys known) const {
+    static const toml::table none;
+    if (has(key)) return table(key, known);
+    return {std::make_shared<const Table>(Table{table_->whole, &none}), file_, full(key) + "."};
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key, Keys known) const {

@@ -37,6 +37,8 @@ class TomlReader {
     std::string text(std::string_view key, std::size_t longest = 60) const;
     bool boolean(std::string_view key) const;
     double number(std::string_view key, double least, double most) const;
+    // `value` stays as it is where the key is missing.
+    void number_if_given(std::string_view key, double least, double most, double& value) const;
     std::uint32_t whole(std::string_view key, std::uint32_t least, std::uint32_t most) const;
     std::vector<double> numbers(std::string_view key, std::size_t count, double least, double most) const;
     // Lists of any length, also empty.
@@ -46,6 +48,8 @@ class TomlReader {
     std::vector<std::array<double, 2>> pairs(std::string_view key, double least, double most) const;
     Vec3 vector(std::string_view key, double least, double most) const;
     TomlReader table(std::string_view key, Keys known) const;
+    // The same, or a table without keys where there is none.
+    TomlReader table_if_given(std::string_view key, Keys known) const;
     std::vector<TomlReader> tables(std::string_view key, Keys known) const;
 
     // Throws InputError (config): "FILE:LINE: KEY: why".

@@ -18,7 +18,7 @@
 #include "segment/access/tool_fit.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/mesh/triangle_tree.h"
 

@@ -8,7 +8,7 @@
 #include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 
 namespace qchopper::bench {
 

@@ -15,10 +15,9 @@
 #include "bench/specimens.h"
 #include "segment/import/inspect.h"
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/connectivity/manifold.h"
-#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 #include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/weld.h"
 

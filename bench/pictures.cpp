@@ -53,8 +53,9 @@ void measure_pictures(const Measured& measured, double max_s, Figures& figures) 
     const TriangleMesh& mesh = *measured.piece.mesh;
     const PictureOptions options;
     const Camera camera = framed(coloured(pieces), options);
-    const std::vector<Rgb> pixels(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height),
-                                  Rgb{200, 120, 40});
+    Pixels pixels{options.width, options.height, {}};
+    pixels.rows.assign(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height),
+                       {200, 120, 40});
     double ours = INFINITY;
     double tree = INFINITY;
     double rays = INFINITY;
@@ -64,7 +65,7 @@ void measure_pictures(const Measured& measured, double max_s, Figures& figures) 
         tree = std::min(tree, best_of(1, process_cpu_s, [&] { return RayTree(mesh); }));
         const RayTree of_mesh(mesh);
         rays = std::min(rays, best_of(1, process_cpu_s, [&] { return hits(of_mesh, camera, options); }));
-        png = std::min(png, best_of(1, process_cpu_s, [&] { return to_png(pixels, options.width, options.height); }));
+        png = std::min(png, best_of(1, process_cpu_s, [&] { return to_png(pixels); }));
     }
     const double beside = tree + rays_per_pixel * rays + png;
     figures.record(measured.name, "both pictures", time_text(ours));

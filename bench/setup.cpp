@@ -22,7 +22,7 @@
 #include "cam/setup/reachable_directions.h"
 #include "cam/setup/stock_points.h"
 #include "segment/access/tool_directions.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/search.h"
 #include "tests/cam/setup/access_case.h"

@@ -5,7 +5,7 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/unusual_size.h"
 #include "app/report/repair_report.h"
-#include "segment/io/mesh_output.h"
+#include "segment/io/write_mesh.h"
 
 namespace qchopper {
 

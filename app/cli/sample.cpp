@@ -5,7 +5,7 @@
 #include "app/report/notices.h"
 #include "app/store/project_folder.h"
 #include "base/timings.h"
-#include "segment/io/mesh_output.h"
+#include "segment/io/write_mesh.h"
 
 namespace qchopper {
 

@@ -11,7 +11,6 @@
 #include "app/store/project_folder.h"
 #include "base/error.h"
 #include "base/printable.h"
-#include "base/shell_word.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/job/read_job.h"

@@ -5,7 +5,7 @@
 #include "app/dispatch/proven_jobs.h"
 #include "app/dispatch/simulated_limits.h"
 #include "base/files/temporary_folder.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "devices/wire/modbus_tcp.h"
 #include "sim/cell/cell_sim.h"
 

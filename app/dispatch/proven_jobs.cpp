@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -15,7 +15,7 @@
 #include "app/jobs/project_joints.h"
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/job/job_caps.h"

@@ -13,7 +13,7 @@
 #include "app/store/replay.h"
 #include "base/text.h"
 #include "base/timings.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/setup/choose_setup.h"
 
 namespace qchopper {

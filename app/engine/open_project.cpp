@@ -15,7 +15,7 @@
 #include "app/store/project_lines.h"
 #include "app/store/replay.h"
 #include "base/error.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/timings.h"
 #include "cam/setup/blocks_needed.h"
 #include "segment/access/tool_directions.h"

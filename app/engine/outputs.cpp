@@ -10,7 +10,7 @@
 #include "app/store/project_folder.h"
 #include "base/files/file.h"
 #include "base/timings.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/picture/exploded.h"
 #include "segment/picture/picture.h"
 

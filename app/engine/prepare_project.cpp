@@ -5,7 +5,7 @@
 #include "app/engine/loop.h"
 #include "app/store/project_lines.h"
 #include "base/error.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 
 namespace qchopper {
 namespace {

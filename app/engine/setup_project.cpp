@@ -7,9 +7,9 @@
 #include "app/engine/make_project.h"
 #include "app/store/replay.h"
 #include "base/error.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/timings.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "segment/access/piece_access.h"
 
 namespace qchopper {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/job/job_program.h"
 #include "cam/setup/block_placement.h"
 #include "cam/setup/drill_orientation.h"

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/transform.h"
 
 namespace qchopper {

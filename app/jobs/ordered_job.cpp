@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/hex.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 
 namespace qchopper {
 namespace {

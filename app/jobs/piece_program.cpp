@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timings.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/job/job_caps.h"
 #include "cam/post/krl.h"
 #include "cam/program/make_program.h"
@@ -18,7 +18,7 @@
 #include "cam/setup/block_placement.h"
 #include "cam/setup/drill_orientation.h"
 #include "cam/toolpath/make_toolpath.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/transform.h"
 
 namespace qchopper {

@@ -23,7 +23,7 @@
 #include "app/jobs/unreachable_of.h"
 #include "base/parallel.h"
 #include "base/shared_progress.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/limiting_tools.h"
 #include "cam/setup/reachable_setup.h"

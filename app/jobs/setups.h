@@ -47,8 +47,8 @@ class Setups {
 
     // What the operator decided, in place of what was decided before. A change forgets all that is known of pieces.
     void set_orders(std::vector<SetupOrder> orders);
-    // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools() of
-    // cam/cell/allowed_tools.h throws.
+    // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools()
+    // (cam/cell/job_tools.h) throws.
     void set_tools(std::vector<std::uint16_t> tools);
     // Whether surface that is too narrow for the smallest tool counts as out of reach.
     void set_count_narrow(bool count_narrow);

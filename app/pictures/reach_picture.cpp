@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/text.h"
-#include "segment/picture/png.h"
 
 namespace qchopper {
 namespace {
@@ -218,10 +217,6 @@ Pixels draw_reach(const Cell& cell, const ReachMap& map) {
     draw_legend(pixels, cell);
     draw_scale_bar(pixels, 1 / panel.scale);
     return pixels;
-}
-
-Bytes to_png(const Pixels& pixels) {
-    return to_png(pixels.rows, pixels.width, pixels.height);
 }
 
 }  // namespace qchopper

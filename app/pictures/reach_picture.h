@@ -6,7 +6,7 @@
 
 #include "base/files/file.h"
 #include "cam/cell/reach_map.h"
-#include "segment/picture/lettering.h"
+#include "segment/picture/png.h"
 
 namespace qchopper {
 
@@ -18,8 +18,5 @@ std::vector<double> pictured_tilts();
 // base, axes in m, a legend and a scale bar. The map is that of the cell at pictured_tilts(); without a machine the
 // panels hold table and reach box only, and the title says so.
 Pixels draw_reach(const Cell& cell, const ReachMap& map);
-
-// Precondition: width and height are positive.
-Bytes to_png(const Pixels& pixels);
 
 }  // namespace qchopper

@@ -15,7 +15,7 @@
 #include "app/report/setup_report.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report_json.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -10,7 +10,7 @@
 #include "app/report/objective_terms.h"
 #include "app/report/report_json.h"
 #include "app/store/project_lines.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
 
 namespace qchopper {

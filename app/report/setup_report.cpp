@@ -13,9 +13,9 @@
 #include "app/report/report_json.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "base/text.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/job/setup_fields.h"
 
 namespace qchopper {

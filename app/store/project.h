@@ -15,7 +15,7 @@
 #include "app/store/decisions.h"
 #include "base/sha256.h"
 #include "segment/import/import_scan.h"
-#include "segment/repair/choices.h"
+#include "segment/repair/options.h"
 #include "segment/search/search.h"
 #include "segment/structure/stress.h"
 

@@ -11,7 +11,7 @@
 #include "app/store/project_json.h"
 #include "base/error.h"
 #include "base/files/staged_folder.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "cam/cell/cell.h"
 
 namespace qchopper {

@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "base/files/regular_file.h"
 #include "base/files/unfinished.h"
 #include "base/huge_pages.h"
 
@@ -62,6 +61,19 @@ void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, st
     if (directory.fd >= 0) ::fsync(directory.fd);
 }
 
+const char* kind_of(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a pipe";
+    if (S_ISSOCK(mode)) return "a socket";
+    return "a device";
+}
+
+void refuse_irregular(const std::filesystem::path& path, mode_t mode) {
+    if (S_ISREG(mode)) return;
+    throw InputError(InputFault::missing, path.string() + " is " + kind_of(mode) + ", not a file",
+                     "name the file itself");
+}
+
 std::string describe(std::uint64_t bytes) {
     const bool is_large = bytes + 1 >= std::uint64_t{1} << 30;
     return std::to_string((bytes + 1) >> (is_large ? 30U : 20U)) + (is_large ? " GB" : " MB");
@@ -109,6 +121,11 @@ Bytes read_file(const std::filesystem::path& path, SizeLimit limit) {
     const auto size = static_cast<std::uint64_t>(info.st_size);
     if (size > limit.bytes) refuse_size(path.string(), limit);
     return read_to_end(file.fd, size, path.string(), limit);
+}
+
+void check_regular_file(const std::filesystem::path& path) {
+    struct stat info {};
+    if (::stat(path.c_str(), &info) == 0) refuse_irregular(path, info.st_mode);
 }
 
 Bytes read_standard_input(SizeLimit limit) {

@@ -33,6 +33,10 @@ Bytes read_file(const std::filesystem::path& path, SizeLimit limit = scan_limit)
 // All bytes of standard input, of whatever kind it is, to its end. Throws InputError as read_file does.
 Bytes read_standard_input(SizeLimit limit = scan_limit);
 
+// For libraries that open a file by its name: throws InputError (missing), naming the file and what it is, unless it is
+// a regular one, links followed; nothing if nothing is there.
+void check_regular_file(const std::filesystem::path& path);
+
 // Writes path.tmp.<pid>, fsyncs it, renames it to `path` and fsyncs the folder. A file or link at `path` is replaced.
 // Throws InputError: create if the file cannot be created or replaced, io if it cannot be written; then `path` is
 // unchanged and the temporary file is removed.

@@ -4,110 +4,96 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <string_view>
 
 #include "base/toml_reader.h"
 
 namespace qchopper {
 
-struct TableKeys {
+class TableKeys {
+ public:
+    constexpr TableKeys(std::string_view table, std::initializer_list<std::string_view> keys)
+        : path(table), count_(keys.size()) {
+        std::copy(keys.begin(), keys.end(), keys_.begin());
+    }
     std::string_view path;  // "robot.capsule"; empty: outside of all tables
-    Keys keys;
+    constexpr operator Keys() const { return {keys_.data(), count_}; }
     // The keys before `source`; none without it.
     constexpr Keys with_origin() const {
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            if (keys[i] == "source") return keys.first(i);
-        }
-        return keys.first(0);
+        const auto* const source = std::find(keys_.begin(), keys_.end(), "source");
+        return {keys_.data(), source == keys_.end() ? 0 : static_cast<std::size_t>(source - keys_.begin())};
     }
+
+ private:
+    std::array<std::string_view, 24> keys_;
+    std::size_t count_;
 };
 
 namespace keys_2 {
 
-inline constexpr auto root_keys = std::to_array<std::string_view>(
-    {"version",    "name",  "id",         "clearance",      "max_tilt_deg", "max_unreachable",
-     "margin",     "reach", "table",      "rotary_table",   "robot",        "spindle",
-     "extraction", "tool",  "stock",      "obstacle",       "start",        "program",
-     "link",       "dowel", "dowel_play", "load_tolerance", "holding"});
-inline constexpr auto box_keys = std::to_array<std::string_view>({"min", "max", "source", "sources"});
-inline constexpr auto table_keys = std::to_array<std::string_view>({"centre", "size", "height", "source", "sources"});
-inline constexpr auto rotary_table_keys = std::to_array<std::string_view>(
-    {"position", "abc_deg", "radius", "speed_deg_per_s", "source", "sources", "external_axis"});
-inline constexpr auto robot_keys = std::to_array<std::string_view>({"a1",
-                                                                    "a2",
-                                                                    "b",
-                                                                    "c1",
-                                                                    "c2",
-                                                                    "c3",
-                                                                    "c4",
-                                                                    "offset_deg",
-                                                                    "sign",
-                                                                    "min_deg",
-                                                                    "max_deg",
-                                                                    "speed_deg_per_s",
-                                                                    "acceleration_deg_per_s2",
-                                                                    "payload_kg",
-                                                                    "source",
-                                                                    "sources",
-                                                                    "name",
-                                                                    "base",
-                                                                    "cable",
-                                                                    "capsule"});
-inline constexpr auto pose_keys = std::to_array<std::string_view>({"position", "abc_deg", "source", "sources"});
-inline constexpr auto cable_keys = std::to_array<std::string_view>({"axis_4_deg", "axis_6_deg", "source", "sources"});
-inline constexpr auto capsule_keys =
-    std::to_array<std::string_view>({"from", "to", "radius", "source", "sources", "link"});
-inline constexpr auto spindle_keys =
-    std::to_array<std::string_view>({"position", "abc_deg", "body_radius", "body_length", "body_offset", "mass_kg",
-                                     "source", "sources", "tool_axis", "on", "speed", "at_speed", "off"});
-inline constexpr auto switch_keys = std::to_array<std::string_view>({"output", "call"});
-inline constexpr auto speed_keys = std::to_array<std::string_view>({"output", "call", "scale"});
-inline constexpr auto at_speed_keys = std::to_array<std::string_view>({"input", "call"});
-inline constexpr auto extraction_keys = std::to_array<std::string_view>({"on", "off"});
-inline constexpr auto tool_keys = std::to_array<std::string_view>(
+inline constexpr TableKeys root{
+    "", {"version",    "name",  "id",         "clearance",      "max_tilt_deg", "max_unreachable",
+         "margin",     "reach", "table",      "rotary_table",   "robot",        "spindle",
+         "extraction", "tool",  "stock",      "obstacle",       "start",        "program",
+         "link",       "dowel", "dowel_play", "load_tolerance", "holding"}};
+inline constexpr TableKeys reach{"reach", {"min", "max", "source", "sources"}};
+inline constexpr TableKeys table{"table", {"centre", "size", "height", "source", "sources"}};
+inline constexpr TableKeys rotary_table{
+    "rotary_table", {"position", "abc_deg", "radius", "speed_deg_per_s", "source", "sources", "external_axis"}};
+inline constexpr TableKeys robot{"robot",
+                                 {"a1",
+                                  "a2",
+                                  "b",
+                                  "c1",
+                                  "c2",
+                                  "c3",
+                                  "c4",
+                                  "offset_deg",
+                                  "sign",
+                                  "min_deg",
+                                  "max_deg",
+                                  "speed_deg_per_s",
+                                  "acceleration_deg_per_s2",
+                                  "payload_kg",
+                                  "source",
+                                  "sources",
+                                  "name",
+                                  "base",
+                                  "cable",
+                                  "capsule"}};
+inline constexpr TableKeys base{"robot.base", {"position", "abc_deg", "source", "sources"}};
+inline constexpr TableKeys cable{"robot.cable", {"axis_4_deg", "axis_6_deg", "source", "sources"}};
+inline constexpr TableKeys capsule{"robot.capsule", {"from", "to", "radius", "source", "sources", "link"}};
+inline constexpr TableKeys spindle{"spindle",
+                                   {"position", "abc_deg", "body_radius", "body_length", "body_offset", "mass_kg",
+                                    "source", "sources", "tool_axis", "on", "speed", "at_speed", "off"}};
+inline constexpr TableKeys spindle_on{"spindle.on", {"output", "call"}};
+inline constexpr TableKeys spindle_speed{"spindle.speed", {"output", "call", "scale"}};
+inline constexpr TableKeys spindle_at_speed{"spindle.at_speed", {"input", "call"}};
+inline constexpr TableKeys spindle_off{"spindle.off", {"output", "call"}};
+inline constexpr TableKeys extraction{"extraction", {"on", "off"}};
+inline constexpr TableKeys extraction_on{"extraction.on", {"output", "call"}};
+inline constexpr TableKeys extraction_off{"extraction.off", {"output", "call"}};
+inline constexpr TableKeys tool{
+    "tool",
     {"diameter", "corner_radius", "tip_angle_deg", "flute_length", "stick_out", "holder", "feed_mm_per_s", "rpm",
-     "mass_kg", "removal_mm3_per_s", "source", "sources", "number", "name", "shape", "length_measured"});
-inline constexpr auto stock_keys = std::to_array<std::string_view>(
-    {"size", "kerf", "bending_strength", "source", "sources", "name", "material", "sawn"});
-inline constexpr auto obstacle_keys = std::to_array<std::string_view>({"min", "max", "source", "sources", "name"});
-inline constexpr auto holding_keys =
-    std::to_array<std::string_view>({"cutting_force", "strength", "max_slenderness", "source", "sources"});
-inline constexpr auto margin_keys = std::to_array<std::string_view>({"sides", "top", "spoil"});
-inline constexpr auto start_keys = std::to_array<std::string_view>({"joints_deg", "tip"});
-inline constexpr auto program_keys = std::to_array<std::string_view>(
+     "mass_kg", "removal_mm3_per_s", "source", "sources", "number", "name", "shape", "length_measured"}};
+inline constexpr TableKeys stock{"stock",
+                                 {"size", "kerf", "bending_strength", "source", "sources", "name", "material", "sawn"}};
+inline constexpr TableKeys obstacle{"obstacle", {"min", "max", "source", "sources", "name"}};
+inline constexpr TableKeys margin{"margin", {"sides", "top", "spoil"}};
+inline constexpr TableKeys holding{"holding", {"cutting_force", "strength", "max_slenderness", "source", "sources"}};
+inline constexpr TableKeys start{"start", {"joints_deg", "tip"}};
+inline constexpr TableKeys program{
+    "program",
     {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change", "acceleration",
-     "turn_speed_deg_per_s", "joint_move_percent", "scallop"});
-inline constexpr auto load_tolerance_keys = std::to_array<std::string_view>({"mass_kg", "centre_mm", "inertia_kg_m2"});
-inline constexpr auto link_keys = std::to_array<std::string_view>({"to", "drop"});
-inline constexpr auto dowel_keys = std::to_array<std::string_view>({"diameter", "depth", "wall"});
-
-inline constexpr TableKeys root{"", root_keys};
-inline constexpr TableKeys reach{"reach", box_keys};
-inline constexpr TableKeys table{"table", table_keys};
-inline constexpr TableKeys rotary_table{"rotary_table", rotary_table_keys};
-inline constexpr TableKeys robot{"robot", robot_keys};
-inline constexpr TableKeys base{"robot.base", pose_keys};
-inline constexpr TableKeys cable{"robot.cable", cable_keys};
-inline constexpr TableKeys capsule{"robot.capsule", capsule_keys};
-inline constexpr TableKeys spindle{"spindle", spindle_keys};
-inline constexpr TableKeys spindle_on{"spindle.on", switch_keys};
-inline constexpr TableKeys spindle_speed{"spindle.speed", speed_keys};
-inline constexpr TableKeys spindle_at_speed{"spindle.at_speed", at_speed_keys};
-inline constexpr TableKeys spindle_off{"spindle.off", switch_keys};
-inline constexpr TableKeys extraction{"extraction", extraction_keys};
-inline constexpr TableKeys extraction_on{"extraction.on", switch_keys};
-inline constexpr TableKeys extraction_off{"extraction.off", switch_keys};
-inline constexpr TableKeys tool{"tool", tool_keys};
-inline constexpr TableKeys stock{"stock", stock_keys};
-inline constexpr TableKeys obstacle{"obstacle", obstacle_keys};
-inline constexpr TableKeys margin{"margin", margin_keys};
-inline constexpr TableKeys holding{"holding", holding_keys};
-inline constexpr TableKeys start{"start", start_keys};
-inline constexpr TableKeys program{"program", program_keys};
-inline constexpr TableKeys load_tolerance{"load_tolerance", load_tolerance_keys};
-inline constexpr TableKeys link{"link", link_keys};
-inline constexpr TableKeys dowel{"dowel", dowel_keys};
+     "turn_speed_deg_per_s", "joint_move_percent", "scallop"}};
+inline constexpr TableKeys load_tolerance{"load_tolerance", {"mass_kg", "centre_mm", "inertia_kg_m2"}};
+inline constexpr TableKeys link{"link", {"to", "drop"}};
+inline constexpr TableKeys dowel{"dowel", {"diameter", "depth", "wall"}};
 
 inline constexpr auto all = std::to_array<TableKeys>(
     {root,    reach,      table,         rotary_table,     robot,       base,       cable,          capsule,
@@ -121,4 +107,5 @@ inline constexpr auto of_machines =
                                      "start", "program", "load_tolerance", "holding"});
 
 }  // namespace keys_2
+
 }  // namespace qchopper

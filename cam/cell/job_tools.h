@@ -1,7 +1,9 @@
-// The tools of a cell as tickets name them.
+// The tools of a cell as tickets name them, and a cell of which only some may be used.
 
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "cam/cell/cell.h"
@@ -13,5 +15,13 @@ Tool job_tool(const CuttingTool& tool);
 
 // All tools that a ticket may name: those of the machine, drills too, or the one of a cell without. O(tools).
 std::vector<Tool> tools_of(const Cell& cell);
+
+// The cell without its other tools: everything that plans with the tools of a cell then knows no others
+// (tests/cam/cell/allowed_tools_test.cpp); `numbers` empty: as it is. Throws InputError (use) if the cell has no
+// machine, has no tool of a number, or if none of the tools is ball-ended, because others do not finish. O(tools).
+Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers);
+
+// "tool 3", "tools 1, 2 and 4". Precondition: there is one.
+std::string describe_tools(const std::vector<std::uint16_t>& numbers);
 
 }  // namespace qchopper

@@ -41,10 +41,6 @@ Pose about_y(Vec3 point, double angle) {
             {point.x - c * point.x - s * point.z, 0, point.z + s * point.x - c * point.z}};
 }
 
-Cylinder moved(const Pose& pose, const Cylinder& shape) {
-    return {apply(pose, shape.from), apply(pose, shape.to), shape.radius};
-}
-
 Cylinder along_axis(double front, double length, double radius) {
     return {{0, 0, -front}, {0, 0, -front - length}, radius};
 }
@@ -92,8 +88,7 @@ MovingBodies bodies_at(const Cell& cell, const CuttingTool& tool, const Joints& 
         tip_in_cell = robot.base_in_cell * (forward(robot.geometry, joints) * arm.tip_in_flange);
         const LinkMotions motions = link_motions(robot.geometry, joints, robot.base_in_cell);
         for (const LinkCapsule& own : robot.capsules) {
-            const Pose& in_cell = motions[static_cast<std::size_t>(own.link)];
-            bodies.links.push_back({own.link, {apply(in_cell, own.from), apply(in_cell, own.to), own.radius}});
+            bodies.links.push_back({own.link, moved(motions[static_cast<std::size_t>(own.link)], own.shape)});
         }
     }
     for (AxisBody& body : bodies.on_axis) body.shape = moved(tip_in_cell, body.shape);

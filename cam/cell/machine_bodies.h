@@ -20,12 +20,6 @@ namespace qchopper {
 
 enum class BodyPart : std::uint8_t { link, spindle, holder, tool };
 
-struct LinkBody {
-    int link = 0;  // as LinkCapsule::link
-    Capsule shape;
-    bool operator==(const LinkBody&) const = default;
-};
-
 // About the tool axis; it moves with the flange, link 6.
 struct AxisBody {
     BodyPart part = BodyPart::tool;
@@ -34,8 +28,8 @@ struct AxisBody {
 };
 
 struct MovingBodies {
-    std::vector<LinkBody> links;    // in the order of Robot::capsules
-    std::vector<AxisBody> on_axis;  // tool, steps of the holder from the tool on, spindle
+    std::vector<LinkCapsule> links;  // Robot::capsules where they are now
+    std::vector<AxisBody> on_axis;   // tool, steps of the holder from the tool on, spindle
     bool operator==(const MovingBodies&) const = default;
 };
 

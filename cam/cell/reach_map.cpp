@@ -18,12 +18,6 @@ constexpr double pi = std::numbers::pi;
 constexpr double joint_margin = radians(3);
 constexpr double max_squares = 500;  // in a row or column
 
-JointRange narrowed(JointRange range, AngleRange limits) {
-    range.min = std::max(range.min, limits.min);
-    range.max = std::min(range.max, limits.max);
-    return range;
-}
-
 // A frame with z along the tool axis, in the frame of the spindle.
 Pose axis_in_spindle(ToolAxis axis) {
     if (axis == ToolAxis::z) return {};
@@ -158,12 +152,8 @@ bool is_in(const Box& box, Vec3 p) {
 ToolArm tool_arm(const Robot& robot, const Spindle& spindle, const CuttingTool& tool) {
     ToolArm arm;
     arm.geometry = robot.geometry;
-    arm.ranges = robot.ranges;
+    arm.ranges = ranges_with_cable(robot.ranges, robot.cable);
     arm.margin = joint_margin;
-    if (robot.cable) {
-        arm.ranges[3] = narrowed(arm.ranges[3], robot.cable->axis_4);
-        arm.ranges[5] = narrowed(arm.ranges[5], robot.cable->axis_6);
-    }
     arm.base_in_cell = robot.base_in_cell;
     const Pose tip_in_axis{Pose{}.row, {0, 0, gauge_length(tool)}};
     arm.tip_in_flange = spindle.spindle_in_flange * (axis_in_spindle(spindle.tool_axis) * tip_in_axis);

@@ -76,7 +76,7 @@ Stock read_block(const TomlReader& reader, Origins& origins) {
 
 std::vector<Stock> read_stock(const TomlReader& reader, Origins& origins) {
     std::vector<Stock> stock;
-    for (const TomlReader& row : reader.tables("stock", keys_2::stock.keys)) {
+    for (const TomlReader& row : reader.tables("stock", keys_2::stock)) {
         const Stock block = read_block(row, origins);
         const bool twice =
             std::any_of(stock.begin(), stock.end(), [&](const Stock& other) { return other.name == block.name; });
@@ -131,13 +131,13 @@ RotaryTable read_rotary_table(const TomlReader& reader) {
 }
 
 void read_reach(const TomlReader& root, Cell& cell) {
-    const TomlReader reach = root.table("reach", keys_2::reach.keys);
+    const TomlReader reach = root.table("reach", keys_2::reach);
     cell.workspace = read_box(reach, "reach");
     add_origins(reach, keys_2::reach, "reach", cell.origins);
 }
 
 void read_fixed_table(const TomlReader& root, Cell& cell) {
-    const TomlReader reader = root.table("table", keys_2::table.keys);
+    const TomlReader reader = root.table("table", keys_2::table);
     cell.table = read_table(reader, cell.workspace);
     add_origins(reader, keys_2::table, "table", cell.origins);
 }
@@ -149,7 +149,7 @@ void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
     }
     if (!root.has("rotary_table")) return read_fixed_table(root, cell);
     if (!machine.robot) root.refuse("rotary_table", "a gantry has three axes", "describe a fixed [table]");
-    const TomlReader reader = root.table("rotary_table", keys_2::rotary_table.keys);
+    const TomlReader reader = root.table("rotary_table", keys_2::rotary_table);
     machine.rotary_table = read_rotary_table(reader);
     const Vec3 centre = machine.rotary_table->table_in_cell.shift;
     const double side = std::numbers::sqrt2 * machine.rotary_table->radius;
@@ -161,7 +161,7 @@ void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
 std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
     std::vector<Obstacle> obstacles;
     if (!root.has("obstacle")) return obstacles;
-    for (const TomlReader& row : root.tables("obstacle", keys_2::obstacle.keys)) {
+    for (const TomlReader& row : root.tables("obstacle", keys_2::obstacle)) {
         if (obstacles.size() == max_obstacles) root.refuse("obstacle", "more than a thousand obstacles");
         obstacles.push_back({row.text("name"), read_box(row, "obstacle")});
         add_origins(row, keys_2::obstacle, "obstacle " + obstacles.back().name, origins);
@@ -171,32 +171,20 @@ std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
 
 Margins read_margins(const TomlReader& root, Origins& origins) {
     Margins margins;
-    if (!root.has("margin")) {
-        for (const std::string_view key : keys_2::margin.keys) {
-            origins.push_back({"margin", std::string(key), Origin::by_default});
-        }
-        return margins;
-    }
-    const TomlReader reader = root.table("margin", keys_2::margin.keys);
-    if (reader.has("sides")) margins.sides = reader.number("sides", 0, 1'000);
-    if (reader.has("top")) margins.top = reader.number("top", 0, 1'000);
-    if (reader.has("spoil")) margins.spoil = reader.number("spoil", 0, 1'000);
-    add_defaults(reader, keys_2::margin.keys, "margin", origins);
+    const TomlReader reader = root.table_if_given("margin", keys_2::margin);
+    reader.number_if_given("sides", 0, 1'000, margins.sides);
+    reader.number_if_given("top", 0, 1'000, margins.top);
+    reader.number_if_given("spoil", 0, 1'000, margins.spoil);
+    add_defaults(reader, keys_2::margin, "margin", origins);
     return margins;
 }
 
 Holding read_holding(const TomlReader& root, Origins& origins) {
     Holding holding;
-    if (!root.has("holding")) {
-        for (const std::string_view key : keys_2::holding.with_origin()) {
-            origins.push_back({"holding", std::string(key), Origin::by_default});
-        }
-        return holding;
-    }
-    const TomlReader reader = root.table("holding", keys_2::holding.keys);
-    if (reader.has("cutting_force")) holding.cutting_force = reader.number("cutting_force", 0.1, 10'000);
-    if (reader.has("strength")) holding.strength = reader.number("strength", 0.001, 1'000);
-    if (reader.has("max_slenderness")) holding.max_slenderness = reader.number("max_slenderness", 0.1, 1'000);
+    const TomlReader reader = root.table_if_given("holding", keys_2::holding);
+    reader.number_if_given("cutting_force", 0.1, 10'000, holding.cutting_force);
+    reader.number_if_given("strength", 0.001, 1'000, holding.strength);
+    reader.number_if_given("max_slenderness", 0.1, 1'000, holding.max_slenderness);
     add_origins(reader, keys_2::holding, "holding", origins);
     add_defaults(reader, keys_2::holding.with_origin(), "holding", origins);
     return holding;
@@ -205,13 +193,13 @@ Holding read_holding(const TomlReader& root, Origins& origins) {
 // What holds of every piece: foam around it, and the height in which the tool travels.
 void read_room(const TomlReader& root, Cell& cell) {
     cell.margins = read_margins(root, cell.origins);
-    if (root.has("clearance")) cell.clearance = root.number("clearance", 0, 1'000);
+    root.number_if_given("clearance", 0, 1'000, cell.clearance);
     add_defaults(root, std::to_array<std::string_view>({"clearance"}), "", cell.origins);
 }
 
 void read_limits(const TomlReader& root, CellMachine& machine, Origins& origins) {
     machine.holding = read_holding(root, origins);
-    if (root.has("max_unreachable")) machine.max_unreachable = root.number("max_unreachable", 0, 1);
+    root.number_if_given("max_unreachable", 0, 1, machine.max_unreachable);
     add_defaults(root, std::to_array<std::string_view>({"max_unreachable"}), "", origins);
     if (!machine.robot) {
         if (root.has("max_tilt_deg")) root.refuse("max_tilt_deg", "a gantry does not tilt its tool", "leave it out");
@@ -224,7 +212,7 @@ void read_limits(const TomlReader& root, CellMachine& machine, Origins& origins)
 std::vector<DowelSize> read_dowels(const TomlReader& root) {
     if (!root.has("dowel")) return default_dowels();
     std::vector<DowelSize> dowels;
-    for (const TomlReader& row : root.tables("dowel", keys_2::dowel.keys)) {
+    for (const TomlReader& row : root.tables("dowel", keys_2::dowel)) {
         const DowelSize size{row.number("diameter", 1, 200), row.number("depth", 1, 1'000),
                              row.number("wall", 0, 1'000)};
         if (dowels.size() == max_dowels) root.refuse("dowel", "more than " + std::to_string(max_dowels) + " sizes");
@@ -287,8 +275,8 @@ Cell read_file_2(const TomlReader& root, const std::filesystem::path& path) {
         read_boxes(root, cell);
     }
     cell.dowels = read_dowels(root);
-    if (root.has("dowel_play")) cell.dowel_play = root.number("dowel_play", 0, 5);
-    if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link.keys), path);
+    root.number_if_given("dowel_play", 0, 5, cell.dowel_play);
+    if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link), path);
     return cell;
 }
 
@@ -308,7 +296,7 @@ double bending_strength(const Stock& stock) {
 Cell parse_cell(std::string_view text, const std::filesystem::path& path) {
     const TomlReader root = TomlReader::parse(text, path.string());
     refuse_version_1(root);
-    return read_file_2(root.with_keys(keys_2::root.keys), path);
+    return read_file_2(root.with_keys(keys_2::root), path);
 }
 
 Cell read_cell(const std::filesystem::path& path) {

@@ -12,17 +12,15 @@
 
 #include "base/pose.h"
 #include "cam/cell/arm.h"
+#include "cam/cell/shape_distance.h"
 
 namespace qchopper {
 
-// A capsule around a part of the arm: all points within `radius` of the line from `from` to `to`. It is given as it
-// lies in the frame of the robot's base while the arm stands straight up (all angles of ArmGeometry zero), and moves
-// with its link.
+// A capsule around a part of the arm, which moves with its link. A robot has it as it lies in the frame of its base
+// while the arm stands straight up (all angles of ArmGeometry zero).
 struct LinkCapsule {
     int link = 0;  // 0: the base, which does not move; k: what axis k moves and axis k + 1 does not
-    Vec3 from;
-    Vec3 to;
-    double radius = 0;
+    Capsule shape;
     bool operator==(const LinkCapsule&) const = default;
 };
 
@@ -49,6 +47,9 @@ struct Robot {
     std::vector<LinkCapsule> capsules;
     bool operator==(const Robot&) const = default;
 };
+
+// The ranges of the axes, those of axes 4 and 6 narrowed to what the cables allow.
+JointRanges ranges_with_cable(const JointRanges& ranges, const std::optional<CableLimits>& cable);
 
 // The table turns about the z axis of its frame, whose origin is the middle of the table's top.
 struct RotaryTable {

@@ -57,9 +57,16 @@ JointRanges read_ranges(const TomlReader& reader) {
     return ranges;
 }
 
-// The angles that joint range and cable both allow.
-AngleRange common(const JointRange& joint, const AngleRange& cable) {
-    return {std::max(joint.min, cable.min), std::min(joint.max, cable.max)};
+void narrow(JointRange& joint, const AngleRange& cable) {
+    joint.min = std::max(joint.min, cable.min);
+    joint.max = std::min(joint.max, cable.max);
+}
+
+// An interval of two numbers, the first below the second.
+AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
+    const std::vector<double> range = reader.numbers(key, 2, -max_turns, max_turns);
+    if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
+    return {range[0] * degree, range[1] * degree};
 }
 
 // An interval of two numbers, the first below the second.
@@ -71,26 +78,22 @@ AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
 
 CableLimits read_cable(const TomlReader& reader, const JointRanges& ranges) {
     const CableLimits cable{read_angle_range(reader, "axis_4_deg"), read_angle_range(reader, "axis_6_deg")};
-    const AngleRange axis_4 = common(ranges[3], cable.axis_4);
-    const AngleRange axis_6 = common(ranges[5], cable.axis_6);
+    const JointRanges both = ranges_with_cable(ranges, cable);
     const std::string why = "lies outside of the axis' range, robot.min_deg to robot.max_deg";
-    if (axis_4.min >= axis_4.max) reader.refuse("axis_4_deg", why);
-    if (axis_6.min >= axis_6.max) reader.refuse("axis_6_deg", why);
+    if (both[3].min >= both[3].max) reader.refuse("axis_4_deg", why);
+    if (both[5].min >= both[5].max) reader.refuse("axis_6_deg", why);
     return cable;
 }
 
 LinkCapsule read_capsule(const TomlReader& reader) {
-    LinkCapsule capsule;
-    capsule.link = static_cast<int>(reader.whole("link", 0, axes_of_arm));
-    capsule.from = reader.vector("from", -farthest_2, farthest_2);
-    capsule.to = reader.vector("to", -farthest_2, farthest_2);
-    capsule.radius = reader.number("radius", smallest, farthest_2);
-    return capsule;
+    return {static_cast<int>(reader.whole("link", 0, axes_of_arm)),
+            {reader.vector("from", -farthest_2, farthest_2), reader.vector("to", -farthest_2, farthest_2),
+             reader.number("radius", smallest, farthest_2)}};
 }
 
 std::vector<LinkCapsule> read_capsules(const TomlReader& reader, Origins& origins) {
     std::vector<LinkCapsule> capsules;
-    for (const TomlReader& row : reader.tables("capsule", keys_2::capsule.keys)) {
+    for (const TomlReader& row : reader.tables("capsule", keys_2::capsule)) {
         if (capsules.size() == max_capsules) reader.refuse("capsule", "more than a hundred capsules");
         capsules.push_back(read_capsule(row));
         add_origins(row, keys_2::capsule, "robot.capsule " + std::to_string(capsules.size()), origins);
@@ -99,17 +102,23 @@ std::vector<LinkCapsule> read_capsules(const TomlReader& reader, Origins& origin
 }
 
 void check_start(const TomlReader& reader, const Joints& joints, const Robot& robot) {
+    const JointRanges ranges = ranges_with_cable(robot.ranges, robot.cable);
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        AngleRange range{robot.ranges[axis].min, robot.ranges[axis].max};
-        if (robot.cable && axis == 3) range = common(robot.ranges[axis], robot.cable->axis_4);
-        if (robot.cable && axis == 5) range = common(robot.ranges[axis], robot.cable->axis_6);
-        if (joints[axis] >= range.min && joints[axis] <= range.max) continue;
+        if (joints[axis] >= ranges[axis].min && joints[axis] <= ranges[axis].max) continue;
         reader.refuse("joints_deg", axis_name(axis) + " is outside of its range",
                       "see robot.min_deg, robot.max_deg and robot.cable");
     }
 }
 
 }  // namespace
+
+JointRanges ranges_with_cable(const JointRanges& ranges, const std::optional<CableLimits>& cable) {
+    JointRanges both = ranges;
+    if (!cable) return both;
+    narrow(both[3], cable->axis_4);
+    narrow(both[5], cable->axis_6);
+    return both;
+}
 
 Pose read_pose(const TomlReader& reader) {
     const std::vector<double> abc = reader.numbers("abc_deg", 3, -360, 360);
@@ -118,18 +127,18 @@ Pose read_pose(const TomlReader& reader) {
 }
 
 Robot read_robot(const TomlReader& root, Origins& origins) {
-    const TomlReader reader = root.table("robot", keys_2::robot.keys);
+    const TomlReader reader = root.table("robot", keys_2::robot);
     Robot robot;
     robot.name = reader.text("name");
     robot.geometry = read_geometry(reader);
     robot.ranges = read_ranges(reader);
     robot.payload_kg = reader.number("payload_kg", smallest, 10'000);
     add_origins(reader, keys_2::robot, "robot", origins);
-    const TomlReader base = reader.table("base", keys_2::base.keys);
+    const TomlReader base = reader.table("base", keys_2::base);
     robot.base_in_cell = read_pose(base);
     add_origins(base, keys_2::base, "robot.base", origins);
     if (reader.has("cable")) {
-        const TomlReader cable = reader.table("cable", keys_2::cable.keys);
+        const TomlReader cable = reader.table("cable", keys_2::cable);
         robot.cable = read_cable(cable, robot.ranges);
         add_origins(cable, keys_2::cable, "robot.cable", origins);
     }
@@ -138,7 +147,7 @@ Robot read_robot(const TomlReader& root, Origins& origins) {
 }
 
 StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& workspace) {
-    const TomlReader reader = root.table("start", keys_2::start.keys);
+    const TomlReader reader = root.table("start", keys_2::start);
     StartPose start;
     if (robot) {
         if (reader.has("tip")) reader.refuse("tip", "belongs to a gantry", "a robot starts from joints_deg");

@@ -265,9 +265,7 @@ double distance(const Cylinder& a, const Cylinder& b) {
 }
 
 double distance(const Cylinder& a, const PlacedBox& b) {
-    const Pose frame_in_box = inverse(b.box_in_frame);
-    const Cylinder in_box{apply(frame_in_box, a.from), apply(frame_in_box, a.to), a.radius};
-    return convex_distance(CylinderSupport(in_box), BoxSupport{b.half});
+    return convex_distance(CylinderSupport(moved(inverse(b.box_in_frame), a)), BoxSupport{b.half});
 }
 
 double lowest(const Capsule& shape) {

@@ -49,6 +49,12 @@ double distance(const Cylinder& a, const PlacedBox& b);
 double lowest(const Capsule& shape);
 double lowest(const Cylinder& shape);
 
+// A capsule or cylinder of frame a, in frame b.
+template <class Shape>
+Shape moved(const Pose& a_in_b, const Shape& shape) {
+    return {apply(a_in_b, shape.from), apply(a_in_b, shape.to), shape.radius};
+}
+
 // The capsule with the same axis and radius, which holds the cylinder: distances from it are quick lower bounds.
 inline Capsule around(const Cylinder& shape) {
     return {shape.from, shape.to, shape.radius};

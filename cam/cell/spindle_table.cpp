@@ -46,7 +46,7 @@ std::string read_target(const TomlReader& reader, std::string_view key, SignalKi
 
 std::optional<Signal> read_signal(const TomlReader& parent, const char* key, const TableKeys& table, Dialect dialect) {
     if (!parent.has(key)) return std::nullopt;
-    const TomlReader reader = parent.table(key, table.keys);
+    const TomlReader reader = parent.table(key, table);
     std::optional<Signal> signal;
     for (const auto& [word, kind] : signal_kinds) {
         if (!reader.has(word)) continue;
@@ -55,7 +55,7 @@ std::optional<Signal> read_signal(const TomlReader& parent, const char* key, con
     }
     if (!signal) {
         parent.refuse(key, "does not say which signal it is",
-                      "add " + std::string(table.keys[0]) + " or " + std::string(table.keys[1]));
+                      "add " + std::string(Keys(table)[0]) + " or " + std::string(Keys(table)[1]));
     }
     if (reader.has("scale")) signal->scale = reader.number("scale", 1e-9, 1e9);
     return signal;
@@ -107,12 +107,12 @@ std::optional<std::string> read_tool_change(const TomlReader& reader) {
 }
 
 void read_motion(const TomlReader& reader, ProgramSettings& program) {
-    if (reader.has("acceleration")) program.acceleration = reader.number("acceleration", 10, 20'000);
+    reader.number_if_given("acceleration", 10, 20'000, program.acceleration);
     if (reader.has("turn_speed_deg_per_s")) {
         program.turn_speed = reader.number("turn_speed_deg_per_s", 1, 3'600) * degree;
     }
     if (reader.has("joint_move_percent")) program.joint_share = 0.01 * reader.whole("joint_move_percent", 1, 100);
-    if (reader.has("scallop")) program.scallop = reader.number("scallop", 0.01, 2);
+    reader.number_if_given("scallop", 0.01, 2, program.scallop);
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ const char* to_word(Dialect dialect) {
 
 Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, const std::vector<CuttingTool>& tools,
                      Dialect dialect, Origins& origins) {
-    const TomlReader reader = root.table("spindle", keys_2::spindle.keys);
+    const TomlReader reader = root.table("spindle", keys_2::spindle);
     Spindle spindle;
     spindle.tool_axis = read_tool_axis(reader);
     read_body(reader, spindle);
@@ -146,13 +146,13 @@ Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, 
 
 std::optional<Extraction> read_extraction(const TomlReader& root, Dialect dialect) {
     if (!root.has("extraction")) return std::nullopt;
-    const TomlReader reader = root.table("extraction", keys_2::extraction.keys);
+    const TomlReader reader = root.table("extraction", keys_2::extraction);
     return Extraction{read_signal(reader, "on", keys_2::extraction_on, dialect),
                       read_signal(reader, "off", keys_2::extraction_off, dialect)};
 }
 
 ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& origins) {
-    const TomlReader reader = root.table("program", keys_2::program.keys);
+    const TomlReader reader = root.table("program", keys_2::program);
     ProgramSettings program;
     program.dialect = read_dialect(reader, has_robot);
     program.lines_per_chunk = default_lines[static_cast<std::size_t>(program.dialect)];
@@ -168,11 +168,10 @@ ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& or
 
 LoadTolerance read_load_tolerance(const TomlReader& root) {
     LoadTolerance tolerance;
-    if (!root.has("load_tolerance")) return tolerance;
-    const TomlReader reader = root.table("load_tolerance", keys_2::load_tolerance.keys);
-    if (reader.has("mass_kg")) tolerance.mass_kg = reader.number("mass_kg", 0, 100);
-    if (reader.has("centre_mm")) tolerance.centre_mm = reader.number("centre_mm", 0, 1'000);
-    if (reader.has("inertia_kg_m2")) tolerance.inertia_kg_m2 = reader.number("inertia_kg_m2", 0, 100);
+    const TomlReader reader = root.table_if_given("load_tolerance", keys_2::load_tolerance);
+    reader.number_if_given("mass_kg", 0, 100, tolerance.mass_kg);
+    reader.number_if_given("centre_mm", 0, 1'000, tolerance.centre_mm);
+    reader.number_if_given("inertia_kg_m2", 0, 100, tolerance.inertia_kg_m2);
     return tolerance;
 }
 

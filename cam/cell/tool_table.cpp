@@ -113,7 +113,7 @@ double gauge_length(const CuttingTool& tool) {
 
 std::vector<CuttingTool> read_tools(const TomlReader& root, Origins& origins) {
     std::vector<CuttingTool> tools;
-    for (const TomlReader& row : root.tables("tool", keys_2::tool.keys)) {
+    for (const TomlReader& row : root.tables("tool", keys_2::tool)) {
         if (tools.size() == max_tools) root.refuse("tool", "more than a hundred tools");
         const CuttingTool read = read_tool_2(row);
         const bool is_second = std::any_of(tools.begin(), tools.end(),

@@ -8,8 +8,7 @@
 #include "base/error.h"
 #include "segment/io/write_3mf.h"
 #include "segment/io/write_glb.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
 

@@ -18,7 +18,7 @@
 #include "cam/job/sheet/setup_sheet.h"
 #include "cam/job/sheet/sheet_details.h"
 #include "cam/job/sheet/template_pdf.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
 

@@ -17,9 +17,8 @@ namespace qchopper {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double rounding = 1e-9;       // of relative margins
-constexpr double speed_steps = 20;      // lowered speeds are whole twentieths of that of the operation
-constexpr double no_speed_mm_s = 1e-3;  // of the judge: speeds are looked at apart
+constexpr double rounding = 1e-9;   // of relative margins
+constexpr double speed_steps = 20;  // lowered speeds are whole twentieths of that of the operation
 
 bool is_same(const ArmPosture& a, const ArmPosture& b) {
     return a.configuration == b.configuration && a.redundancy_angle == b.redundancy_angle &&
@@ -51,11 +50,6 @@ std::vector<ArmPosture> posture_candidates(const MachineReachability& reachabili
     return all;
 }
 
-CuttingTool slowed(CuttingTool tool) {
-    tool.feed_max_mm_per_s = no_speed_mm_s;
-    return tool;
-}
-
 PoseRegion first_poses(const PoseRegion& region, std::size_t count) {
     PoseRegion first;
     first.poses.assign(region.poses.begin(), region.poses.begin() + static_cast<std::ptrdiff_t>(count));
@@ -74,6 +68,11 @@ PoseCheck refusing_check(const MarginTally& tally) {
 }
 
 }  // namespace
+
+CuttingTool slowed(CuttingTool tool) {
+    tool.feed_max_mm_per_s = 1e-3;
+    return tool;
+}
 
 double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length) {
     double speed = std::numeric_limits<double>::infinity();

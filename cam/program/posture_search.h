@@ -76,6 +76,9 @@ class PostureSearch {
     std::string refusal_;
 };
 
+// The tool with a feed that no joint is too slow for: a judge that is given it leaves speeds to be looked at apart.
+CuttingTool slowed(CuttingTool tool);
+
 // The largest speed of a tip that goes a length while the joints go from one pose to another: infinite if none turns.
 double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length);
 

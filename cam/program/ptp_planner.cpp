@@ -43,17 +43,12 @@ std::vector<std::vector<Joints>> middles(const Joints& home, const Joints& goal)
     return {{}, {facing}, {turned}, {facing, turned}};
 }
 
-CuttingTool slow(CuttingTool tool) {
-    tool.feed_max_mm_per_s = 1e-3;
-    return tool;
-}
-
 }  // namespace
 
 PtpPlanner::PtpPlanner(const Setup& setup, const Cell& cell, std::size_t tool)
     : setup_(setup),
       cell_(cell),
-      slow_tool_(slow(cell.machine->tools[tool])),
+      slow_tool_(slowed(cell.machine->tools[tool])),
       judge_(cell, slow_tool_),
       home_(cell.machine->start.joints) {}
 

@@ -23,7 +23,6 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/files/regular_file.h"
 #include "base/sha256.h"
 
 namespace qchopper {

@@ -7,8 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "segment/io/formats/glb_file.h"
-#include "segment/io/formats/gunzip.h"
+#include "segment/io/formats/gltf_json.h"
 #include "segment/io/formats/read_3mf.h"
 #include "segment/io/formats/read_gltf.h"
 #include "segment/io/formats/read_obj.h"
@@ -16,7 +15,7 @@
 #include "segment/io/formats/read_ply.h"
 #include "segment/io/formats/read_stl.h"
 #include "segment/io/formats/text.h"
-#include "segment/io/to_utf8.h"
+#include "segment/io/formats/unpack.h"
 
 namespace qchopper {
 namespace {
@@ -85,7 +84,7 @@ RawMesh parse_unpacked(const Bytes& bytes, const std::string& name, const std::f
 
 RawMesh parse_packed(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
                      const ReadOptions& options) {
-    if (bytes.empty()) throw InputError(InputFault::mesh, name + " is empty", "export or copy the file again");
+    if (bytes.empty()) throw InputError(InputFault::mesh, name + " is empty", export_again);
     if (!is_gzip(bytes) || is_binary_stl(bytes)) return parse_unpacked(bytes, name, folder, options);
     const Bytes unpacked = gunzip(bytes, name);
     if (unpacked.empty()) throw InputError(InputFault::mesh, name + " is empty after unpacking", "copy the file again");

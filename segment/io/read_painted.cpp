@@ -87,17 +87,6 @@ std::vector<std::uint8_t> marks(const PlyHeader& header, Values values, const Ma
     return {};
 }
 
-std::vector<std::uint8_t> marks(const PlyHeader& header, std::string_view file, const MarkSource& source) {
-    switch (header.format) {
-        case MeshFormat::ply_little_endian:
-            return marks(header, BinaryValues<std::endian::little>(file, header.size), source);
-        case MeshFormat::ply_big_endian:
-            return marks(header, BinaryValues<std::endian::big>(file, header.size), source);
-        default:
-            return marks(header, AsciiValues(file.substr(header.size), header.lines), source);
-    }
-}
-
 MarkedPoints parse_marked(const Bytes& bytes, const std::string& name, const MarkNames& names,
                           const std::string& page) {
     if (!is_ply(bytes)) {
@@ -115,7 +104,7 @@ MarkedPoints parse_marked(const Bytes& bytes, const std::string& name, const Mar
                              " or mask nor colours",
                          "paint the surface red and export the vertex colours too (" + page + ")");
     }
-    marked.is_marked = marks(header, file, *source);
+    marked.is_marked = with_values(header, file, [&](const auto& values) { return marks(header, values, *source); });
     marked.mesh.cap_of.clear();
     return marked;
 }

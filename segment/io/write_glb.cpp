@@ -15,8 +15,11 @@
 namespace qchopper {
 namespace {
 
+// Appends numbers to the buffer, and an accessor to them by a view of their own, of which it returns the index. The
+// target of the view is 0 for numbers that are no part of a mesh.
 template <class Number>
-int add_view(tinygltf::Model& model, const std::vector<Number>& numbers, int target) {
+int add_accessor(tinygltf::Model& model, const std::vector<Number>& numbers, int target, int component, int type,
+                 std::size_t count, tinygltf::Accessor accessor = {}) {
     std::vector<unsigned char>& data = model.buffers[0].data;
     tinygltf::BufferView view;
     view.buffer = 0;
@@ -27,29 +30,30 @@ int add_view(tinygltf::Model& model, const std::vector<Number>& numbers, int tar
     std::memcpy(data.data() + view.byteOffset, numbers.data(),
                 view.byteLength);  // glTF is little-endian, as the host must be
     model.bufferViews.push_back(view);
-    return static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.componentType = component;
+    accessor.type = type;
+    accessor.count = count;
+    model.accessors.push_back(accessor);
+    return static_cast<int>(model.accessors.size()) - 1;
 }
 
 int add_positions(tinygltf::Model& model, const TriangleMesh& mesh) {
     std::vector<float> numbers;
     numbers.reserve(3 * mesh.points.size());
-    tinygltf::Accessor accessor;
-    accessor.minValues.assign(3, std::numeric_limits<float>::max());
-    accessor.maxValues.assign(3, std::numeric_limits<float>::lowest());
+    tinygltf::Accessor bounded;
+    bounded.minValues.assign(3, std::numeric_limits<float>::max());
+    bounded.maxValues.assign(3, std::numeric_limits<float>::lowest());
     for (const Vec3& p : mesh.points) {
         for (int axis = 0; axis < 3; ++axis) {
             numbers.push_back(static_cast<float>(p[axis]));
             const auto a = static_cast<std::size_t>(axis);
-            accessor.minValues[a] = std::min<double>(accessor.minValues[a], numbers.back());
-            accessor.maxValues[a] = std::max<double>(accessor.maxValues[a], numbers.back());
+            bounded.minValues[a] = std::min<double>(bounded.minValues[a], numbers.back());
+            bounded.maxValues[a] = std::max<double>(bounded.maxValues[a], numbers.back());
         }
     }
-    accessor.bufferView = add_view(model, numbers, TINYGLTF_TARGET_ARRAY_BUFFER);
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = TINYGLTF_TYPE_VEC3;
-    accessor.count = mesh.points.size();
-    model.accessors.push_back(accessor);
-    return static_cast<int>(model.accessors.size()) - 1;
+    return add_accessor(model, numbers, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
+                        mesh.points.size(), bounded);
 }
 
 // Adds the triangles that are caps, or those that are not.
@@ -61,15 +65,10 @@ void add_primitive(tinygltf::Model& model, tinygltf::Mesh& to, const TriangleMes
         corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     }
     if (corners.empty()) return;
-    tinygltf::Accessor accessor;
-    accessor.bufferView = add_view(model, corners, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    accessor.type = TINYGLTF_TYPE_SCALAR;
-    accessor.count = corners.size();
-    model.accessors.push_back(accessor);
     tinygltf::Primitive primitive;
     primitive.attributes["POSITION"] = positions;
-    primitive.indices = static_cast<int>(model.accessors.size()) - 1;
+    primitive.indices = add_accessor(model, corners, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, corners.size());
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = material;
     to.primitives.push_back(primitive);
@@ -115,28 +114,6 @@ void add_node(tinygltf::Model& model, const GlbNode& from) {
     model.meshes.push_back(mesh);
 }
 
-int add_numbers(tinygltf::Model& model, const std::vector<float>& numbers, int per_value, int type) {
-    const std::size_t offset = model.buffers[0].data.size();
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = offset;
-    view.byteLength = numbers.size() * sizeof(float);
-    model.buffers[0].data.resize(offset + view.byteLength);
-    std::memcpy(model.buffers[0].data.data() + offset, numbers.data(), view.byteLength);
-    model.bufferViews.push_back(view);
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = type;
-    accessor.count = numbers.size() / static_cast<std::size_t>(per_value);
-    if (per_value == 1) {
-        accessor.minValues = {numbers.front()};
-        accessor.maxValues = {numbers.back()};
-    }
-    model.accessors.push_back(accessor);
-    return static_cast<int>(model.accessors.size()) - 1;
-}
-
 void add_keys(tinygltf::Model& model, tinygltf::Animation& animation, const GlbNode& node, int number) {
     std::vector<float> times;
     std::vector<float> places;
@@ -146,8 +123,12 @@ void add_keys(tinygltf::Model& model, tinygltf::Animation& animation, const GlbN
         for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(place[axis]));
     }
     tinygltf::AnimationSampler sampler;
-    sampler.input = add_numbers(model, times, 1, TINYGLTF_TYPE_SCALAR);
-    sampler.output = add_numbers(model, places, 3, TINYGLTF_TYPE_VEC3);
+    tinygltf::Accessor bounded;
+    bounded.minValues = {times.front()};
+    bounded.maxValues = {times.back()};
+    sampler.input =
+        add_accessor(model, times, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, times.size(), bounded);
+    sampler.output = add_accessor(model, places, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, times.size());
     sampler.interpolation = "LINEAR";
     tinygltf::AnimationChannel channel;
     channel.sampler = static_cast<int>(animation.samplers.size());

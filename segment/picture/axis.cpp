@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segment/picture/svg.h"
+#include "base/text.h"
 
 namespace qchopper {
 
 std::string Ticks::text(double value) const {
-    if (!is_logarithmic) return svg_number(value, decimals);
-    return svg_number(value, std::clamp(static_cast<int>(std::ceil(-std::log10(value) - 1e-9)), 0, decimals));
+    if (!is_logarithmic) return fixed(value, decimals);
+    return fixed(value, std::clamp(static_cast<int>(std::ceil(-std::log10(value) - 1e-9)), 0, decimals));
 }
 
 namespace {

@@ -1,14 +1,28 @@
-// The orthographic camera of a picture, and its options.
+// What a picture shows, its options, and its orthographic camera.
 //
 // Lengths in mm, sizes in pixels. `right`, `up` and `forward` are orthonormal.
 
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <string>
 
-#include "segment/picture/coloured.h"
+#include "segment/mesh/triangle_mesh.h"
+#include "segment/picture/colour.h"
 
 namespace qchopper {
+
+// A mesh to be drawn, with its colour or those of its triangles, its place and its name.
+struct ColouredMesh {
+    const TriangleMesh* mesh = nullptr;  // stays the caller's
+    Rgb colour = bone_colour;
+    Vec3 shift;             // mm, added to every point
+    std::string name = {};  // written on it; empty: nothing
+    // With both, triangle t has the colour palette[colour_of[t]] in place of `colour`; both stay the caller's.
+    std::span<const Rgb> palette = {};
+    std::span<const std::uint8_t> colour_of = {};  // per triangle
+};
 
 struct PictureOptions {
     int width = 1200;  // pixels

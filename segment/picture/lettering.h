@@ -3,17 +3,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "segment/picture/colour.h"
+#include "segment/picture/png.h"
 
 namespace qchopper {
-
-struct Pixels {
-    int width = 0;
-    int height = 0;
-    std::vector<Rgb> rows;  // from the top, each from the left: width * height
-};
 
 // A text of one line with its middle at (x, y) in pixels, moved into the picture where it would reach beyond; capital
 // letters are `height` pixels high. Characters that the font lacks, and all where the font is not installed (package

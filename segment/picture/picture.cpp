@@ -238,7 +238,7 @@ Pixels render(const Scene& scene, const PictureOptions& options, const Context& 
 }
 
 Bytes render_png(const Scene& scene, const PictureOptions& options, const Context& context) {
-    return to_png(render(scene, options, context).rows, options.width, options.height);
+    return to_png(render(scene, options, context));
 }
 
 Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options, const Context& context) {

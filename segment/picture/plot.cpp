@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "segment/picture/axis.h"
+#include "base/text.h"
 #include "segment/picture/svg.h"
 
 namespace qchopper {
@@ -29,7 +29,7 @@ constexpr double space_per_dot = 4;   // curves with less space between points a
 
 // A coordinate of the picture as text. NaN becomes 0 and large values are limited, so that the text is short.
 std::string at(double value) {
-    return svg_number(std::isnan(value) ? 0 : std::clamp(value, -1e6, 1e6), 2);
+    return fixed(std::isnan(value) ? 0 : std::clamp(value, -1e6, 1e6), 2);
 }
 
 // A light border around letters, so that they can be read where a mark crosses them.

@@ -9,17 +9,17 @@
 
 namespace qchopper {
 
-Bytes to_png(const std::vector<Rgb>& pixels, int width, int height) {
+Bytes to_png(const Pixels& pixels) {
     static_assert(sizeof(Rgb) == 3, "libpng reads the rows in place");
-    assert(pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    assert(pixels.rows.size() == static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
+    image.width = static_cast<png_uint_32>(pixels.width);
+    image.height = static_cast<png_uint_32>(pixels.height);
     image.format = PNG_FORMAT_RGB;
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     Bytes bytes(size);
-    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.rows.data(), 0, nullptr) == 0) {
         throw std::bad_alloc();  // with these sizes nothing else can fail
     }
     bytes.resize(size);

@@ -1,4 +1,5 @@
-// Encodes pixels as a PNG file in memory, 8 bits per channel. The same pixels give the same bytes.
+// The pixels of a picture, and these encoded as a PNG file in memory, 8 bits per channel. The same pixels give the same
+// bytes.
 
 #pragma once
 
@@ -9,7 +10,13 @@
 
 namespace qchopper {
 
-// Rows from the top, each from the left. Preconditions: width and height are positive, pixels.size() is their product.
-Bytes to_png(const std::vector<Rgb>& pixels, int width, int height);
+struct Pixels {
+    int width = 0;
+    int height = 0;
+    std::vector<Rgb> rows;  // from the top, each from the left: width * height
+};
+
+// Preconditions: width and height are positive, and there are as many pixels as their product.
+Bytes to_png(const Pixels& pixels);
 
 }  // namespace qchopper

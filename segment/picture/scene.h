@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "segment/mesh/rays.h"
-#include "segment/picture/coloured.h"
+#include "segment/picture/camera.h"
 
 namespace qchopper {
 

@@ -1,4 +1,4 @@
-// Formats numbers, colours and text for an SVG file, as valid XML for any input (tests/segment/picture/plot_test.cpp).
+// Formats colours and text for an SVG file, as valid XML for any input (tests/segment/picture/plot_test.cpp).
 
 #pragma once
 
@@ -7,9 +7,6 @@
 #include "segment/picture/colour.h"
 
 namespace qchopper {
-
-// Fixed decimals, a decimal point in every locale, never "-0". Preconditions: the value is finite, 0 <= decimals <= 12.
-std::string svg_number(double value, int decimals);
 
 // "#5590e2"
 std::string svg_colour(Rgb colour);

@@ -53,7 +53,7 @@ Bytes draw_two_sides(std::span<const ColouredMesh> meshes, std::span<const Legen
     options.view = {-options.view.x, -options.view.y, -options.view.z};
     paste(all, render(scene, options, context), layout.view_width);
     draw_legend(all, legend, layout);
-    return to_png(all.rows, all.width, all.height);
+    return to_png(all);
 }
 
 }  // namespace qchopper

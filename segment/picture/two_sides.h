@@ -10,7 +10,7 @@
 
 #include "base/context.h"
 #include "base/files/file.h"
-#include "segment/picture/coloured.h"
+#include "segment/picture/camera.h"
 
 namespace qchopper {
 

@@ -63,10 +63,8 @@ class Pairing {
     }
 
  private:
-    static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-    static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
     // The next corner in the fan around a point. A corner has the number of the half-edge that starts there.
-    std::uint32_t next_in_fan(std::uint32_t corner) const { return partner_[previous(corner)]; }
+    std::uint32_t next_in_fan(std::uint32_t corner) const { return partner_[previous_in_triangle(corner)]; }
 
     void pair(std::uint32_t a, std::uint32_t b) {
         partner_[a] = b;

@@ -18,13 +18,6 @@ namespace {
 constexpr double rounding = 1e-15;
 constexpr int max_rounds = 64;  // of a row of such triangles each round removes those at its ends
 
-std::uint32_t next(std::uint32_t h) {
-    return h % 3 == 2 ? h - 2 : h + 1;
-}
-std::uint32_t previous(std::uint32_t h) {
-    return h % 3 == 0 ? h + 2 : h - 1;
-}
-
 bool is_on_a_line(Vec3 a, Vec3 b, Vec3 c) {
     const Vec3 u = b - a;
     const Vec3 v = c - a;
@@ -74,7 +67,7 @@ class Removal {
         std::uint32_t best = 3 * t;
         double longest = -1;
         for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-            const Vec3 d = point(next(h)) - point(h);
+            const Vec3 d = point(next_in_triangle(h)) - point(h);
             if (dot(d, d) <= longest) continue;
             longest = dot(d, d);
             best = h;
@@ -98,15 +91,15 @@ class Removal {
     // Whether an edge runs between the corner where h starts and the point v.
     bool has_edge(std::uint32_t h, std::uint32_t v) const {
         const auto ends_in = [&](std::uint32_t at) {
-            return end_of(mesh_, at) == v || start_of(mesh_, previous(at)) == v;
+            return end_of(mesh_, at) == v || start_of(mesh_, previous_in_triangle(at)) == v;
         };
         if (ends_in(h)) return true;
         for (std::uint32_t at = twin_[h]; at != no_twin; at = twin_[at]) {
-            at = next(at);
+            at = next_in_triangle(at);
             if (at == h) return false;
             if (ends_in(at)) return true;
         }
-        for (std::uint32_t at = twin_[previous(h)]; at != no_twin; at = twin_[previous(at)]) {
+        for (std::uint32_t at = twin_[previous_in_triangle(h)]; at != no_twin; at = twin_[previous_in_triangle(at)]) {
             if (at == h || ends_in(at)) return at != h;
         }
         return false;
@@ -116,8 +109,8 @@ class Removal {
     bool flip(std::uint32_t h, std::uint32_t g) {
         const std::uint32_t a = end_of(mesh_, h);
         const std::uint32_t c = start_of(mesh_, h);
-        const std::uint32_t b = start_of(mesh_, previous(h));
-        const std::uint32_t d = start_of(mesh_, previous(g));
+        const std::uint32_t b = start_of(mesh_, previous_in_triangle(h));
+        const std::uint32_t d = start_of(mesh_, previous_in_triangle(g));
         const auto is_flat = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
             return is_on_a_line(mesh_.points[i], mesh_.points[j], mesh_.points[k]);
         };
@@ -126,11 +119,11 @@ class Removal {
         const auto length = [&](std::uint32_t i, std::uint32_t j) { return norm(mesh_.points[i] - mesh_.points[j]); };
         // Two adjacent ones are flipped only while their common edge becomes shorter, so that the flips end.
         const bool helps = after < before || (before == 2 && length(b, d) < length(a, c));
-        if (b == d || !helps || has_edge(previous(h), d)) return false;
-        const std::uint32_t ab = twin_[next(h)];
-        const std::uint32_t bc = twin_[previous(h)];
-        const std::uint32_t cd = twin_[next(g)];
-        const std::uint32_t da = twin_[previous(g)];
+        if (b == d || !helps || has_edge(previous_in_triangle(h), d)) return false;
+        const std::uint32_t ab = twin_[next_in_triangle(h)];
+        const std::uint32_t bc = twin_[previous_in_triangle(h)];
+        const std::uint32_t cd = twin_[next_in_triangle(g)];
+        const std::uint32_t da = twin_[previous_in_triangle(g)];
         const std::uint32_t first = 3 * (h / 3);
         const std::uint32_t second = 3 * (g / 3);
         mesh_.triangles[h / 3] = {a, b, d};

@@ -167,10 +167,6 @@ std::vector<bool> without_opposite_faces(const TriangleMesh& mesh) {
     return is_kept;
 }
 
-RepeatedFaces drop_repeated_faces(TriangleMesh& mesh) {
-    return drop_repeated_faces(mesh, edges(mesh));
-}
-
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources) {
     RepeatedFaces counts;
     if (!may_repeat(mesh, found)) return counts;

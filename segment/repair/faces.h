@@ -23,7 +23,6 @@ struct RepeatedFaces {
 
 // Precondition: equal points are welded. Of faces with the same orientation the first stays. Of two opposite ones both
 // are dropped where the surface around them closes without them, and one of them stays where it does not.
-RepeatedFaces drop_repeated_faces(TriangleMesh& mesh);
 // `found` are the edges of the mesh as it is passed.
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources = nullptr);
 

@@ -1,8 +1,12 @@
-// What repair() does; lengths are mm.
+// What repair() does, and which of it an operator chooses; lengths are mm.
 
 #pragma once
 
-#include "segment/repair/holes/fill_holes.h"
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "segment/repair/fill_holes.h"
 #include "segment/repair/pen_grooves/pen_grooves.h"
 
 namespace qchopper {
@@ -25,5 +29,23 @@ struct RepairOptions {
     double alpha_wrap_mm = 0;        // last resort: wrap the scan with a ball of this radius; 0: off
     bool measure_deviation = false;  // of a result that is a solid, or of any result with Fill::none
 };
+
+// The options that an operator chooses and a project file stores: with them the same scan gives the same solid.
+struct RepairChoices {
+    double weld_mm = 0;  // border points nearer than this are merged; 0: off
+    Fill fill = Fill::by_size;
+    bool resolve_self_intersections = false;
+    bool smooth_pen_grooves = false;
+    double alpha_wrap_mm = 0;  // 0: off
+    bool operator==(const RepairChoices&) const = default;
+};
+
+// The default options with these choices.
+RepairOptions options_of(const RepairChoices& choices);
+
+// "auto", "flat", "fair" or "none".
+std::string name_of(Fill fill);
+// Nothing for any other name.
+std::optional<Fill> fill_named(std::string_view name);
 
 }  // namespace qchopper

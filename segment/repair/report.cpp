@@ -3,6 +3,7 @@
 #include "segment/repair/report.h"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "base/text.h"
 
@@ -15,32 +16,20 @@ std::string in_digits(double value) {
     return significant(value, 3);
 }
 
-// "2 holes closed, 5 faces dropped": counts of 0 are left out.
-class Clauses {
- public:
-    Clauses& add(std::size_t count, const std::string& one, const std::string& many) {
-        if (count > 0) add(counted(count, one, many));
-        return *this;
-    }
-    Clauses& add(const std::string& clause) {
-        text_ += (text_.empty() ? "" : ", ") + clause;
-        return *this;
-    }
-    std::string text() const { return text_.empty() ? "nothing to do" : text_; }
-
- private:
-    std::string text_;
+// A count with what it is of; with the count 0 it is left out.
+struct Clause {
+    std::size_t count = 0;
+    std::string one;
+    std::string many;
 };
 
-std::string filling(const RepairReport& r) {
-    Clauses clauses;
-    clauses.add(r.holes_filled, "hole closed", "holes closed");
-    if (r.holes_filled > 0) clauses.add("with " + counted(r.faces_added, "face"));
-    return clauses.add(r.holes_faired, "of them faired", "of them faired")
-        .add(r.points_added, "point added", "points added")
-        .add(r.left_open.size(), "hole left open", "holes left open")
-        .add(r.open_components_dropped, "open component dropped", "open components dropped")
-        .text();
+// "2 holes closed, 5 faces dropped"
+std::string clauses(std::initializer_list<Clause> all) {
+    std::string text;
+    for (const auto& [count, one, many] : all) {
+        if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+    }
+    return text.empty() ? "nothing to do" : text;
 }
 
 std::string fragments(const RepairReport& r) {
@@ -160,44 +149,40 @@ std::optional<Refusal> refusal_of(const RepairReport& r) {
 }
 
 std::vector<RepairStep> steps(const RepairReport& r) {
-    return {{"weld", r.welded + r.collapsed + r.unreferenced,
-             Clauses()
-                 .add(r.welded, "point welded", "points welded")
-                 .add(r.collapsed, "collapsed face dropped", "collapsed faces dropped")
-                 .add(r.unreferenced, "unused point dropped", "unused points dropped")
-                 .text()},
-            {"weld_borders", r.borders_snapped,
-             Clauses().add(r.borders_snapped, "border point welded", "border points welded").text()},
-            {"faces", r.repeated + r.of_doubled_components,
-             Clauses()
-                 .add(r.repeated, "repeated face dropped", "repeated faces dropped")
-                 .add(r.of_doubled_components, "face of flat doubled components dropped",
-                      "faces of flat doubled components dropped")
-                 .text()},
-            {"split", r.edges_split + r.edges_cut + r.points_copied,
-             Clauses()
-                 .add(r.edges_split, "edge of more than two faces split", "edges of more than two faces split")
-                 .add(r.edges_cut, "edge cut open", "edges cut open")
-                 .add(r.points_copied, "copy of a point made", "copies of points made")
-                 .text()},
-            {"orient", r.faces_turned,
-             Clauses()
-                 .add(r.faces_turned, "face turned to agree with its neighbours",
-                      "faces turned to agree with their neighbours")
-                 .text()},
-            {"stitch", r.stitched, Clauses().add(r.stitched, "edge stitched", "edges stitched").text()},
-            {"degenerate", r.degenerate_removed,
-             Clauses()
-                 .add(r.degenerate_removed, "face without area removed", "faces without area removed")
-                 .add(r.degenerate_left, "face without area left", "faces without area left")
-                 .text()},
-            {"fill", r.holes_filled + r.open_components_dropped, filling(r)},
-            {"outwards", r.shells_turned,
-             Clauses().add(r.shells_turned, "shell turned outwards", "shells turned outwards").text()},
-            {"fragments", r.fragments, fragments(r)},
-            {"resolve", r.resolved ? r.resolved->places : 0, resolving(r)},
-            {"pen_grooves", r.pen_grooves ? r.pen_grooves->count : 0, smoothing(r)},
-            {"alpha_wrap", r.alpha_wrapped ? std::size_t{1} : 0, wrapping(r)}};
+    const std::string with_faces = ", with " + counted(r.faces_added, "face");
+    return {
+        {"weld", r.welded + r.collapsed + r.unreferenced,
+         clauses({{r.welded, "point welded", "points welded"},
+                  {r.collapsed, "collapsed face dropped", "collapsed faces dropped"},
+                  {r.unreferenced, "unused point dropped", "unused points dropped"}})},
+        {"weld_borders", r.borders_snapped,
+         clauses({{r.borders_snapped, "border point welded", "border points welded"}})},
+        {"faces", r.repeated + r.of_doubled_components,
+         clauses({{r.repeated, "repeated face dropped", "repeated faces dropped"},
+                  {r.of_doubled_components, "face of flat doubled components dropped",
+                   "faces of flat doubled components dropped"}})},
+        {"split", r.edges_split + r.edges_cut + r.points_copied,
+         clauses({{r.edges_split, "edge of more than two faces split", "edges of more than two faces split"},
+                  {r.edges_cut, "edge cut open", "edges cut open"},
+                  {r.points_copied, "copy of a point made", "copies of points made"}})},
+        {"orient", r.faces_turned,
+         clauses({{r.faces_turned, "face turned to agree with its neighbours",
+                   "faces turned to agree with their neighbours"}})},
+        {"stitch", r.stitched, clauses({{r.stitched, "edge stitched", "edges stitched"}})},
+        {"degenerate", r.degenerate_removed,
+         clauses({{r.degenerate_removed, "face without area removed", "faces without area removed"},
+                  {r.degenerate_left, "face without area left", "faces without area left"}})},
+        {"fill", r.holes_filled + r.open_components_dropped,
+         clauses({{r.holes_filled, "hole closed" + with_faces, "holes closed" + with_faces},
+                  {r.holes_faired, "of them faired", "of them faired"},
+                  {r.points_added, "point added", "points added"},
+                  {r.left_open.size(), "hole left open", "holes left open"},
+                  {r.open_components_dropped, "open component dropped", "open components dropped"}})},
+        {"outwards", r.shells_turned, clauses({{r.shells_turned, "shell turned outwards", "shells turned outwards"}})},
+        {"fragments", r.fragments, fragments(r)},
+        {"resolve", r.resolved ? r.resolved->places : 0, resolving(r)},
+        {"pen_grooves", r.pen_grooves ? r.pen_grooves->count : 0, smoothing(r)},
+        {"alpha_wrap", r.alpha_wrapped ? std::size_t{1} : 0, wrapping(r)}};
 }
 
 std::vector<std::string> warnings(const RepairReport& r) {

@@ -12,7 +12,7 @@
 
 #include "segment/mesh/distance.h"
 #include "segment/repair/alpha_wrap.h"
-#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 #include "segment/repair/pen_grooves/pen_grooves.h"
 #include "segment/repair/resolve.h"
 

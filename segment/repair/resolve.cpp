@@ -14,7 +14,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/holes/fill_loop.h"
+#include "segment/repair/fill_holes.h"
 #include "segment/repair/intersections/exact_pair.h"
 #include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/surface_region.h"
@@ -150,7 +150,7 @@ class ResolvePass {
 
     // The corner of a triangle that is not on this edge of it.
     std::uint32_t opposite_corner(std::uint32_t half_edge) const {
-        return mesh_.triangles[half_edge / 3][(half_edge % 3 + 2) % 3];
+        return start_of(mesh_, previous_in_triangle(half_edge));
     }
 
     // Every directed edge at most once, together with the triangles that stay.

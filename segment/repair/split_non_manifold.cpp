@@ -199,9 +199,8 @@ class Separation {
     // The mesh with a point for every fan.
     TriangleMesh with_copies() const {
         DisjointSets corners(partner_.size());
-        const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
         for (std::uint32_t h = 0; h < partner_.size(); ++h) {
-            if (partner_[h] != none) corners.unite(h, next(partner_[h]));
+            if (partner_[h] != none) corners.unite(h, next_in_triangle(partner_[h]));
         }
         TriangleMesh result = mesh_;
         std::vector<std::uint32_t> point_of(partner_.size(), none);  // per root

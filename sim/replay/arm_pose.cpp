@@ -83,10 +83,10 @@ void ArmPoses::check_bodies(const Joints& joints, const CuttingTool& tool, Sourc
 
 void ArmPoses::check_links(const MovingBodies& bodies, SourcePlace place) {
     for (std::size_t i = 0; i < bodies.links.size(); ++i) {
-        const LinkBody& link = bodies.links[i];
+        const LinkCapsule& link = bodies.links[i];
         const std::string name = "link " + std::to_string(link.link);
         for (std::size_t j = 0; j < i; ++j) {
-            const LinkBody& other = bodies.links[j];
+            const LinkCapsule& other = bodies.links[j];
             if (may_touch(link.link, other.link) || distance(link.shape, other.shape) > min_gap) continue;
             collide(name + " meets link " + std::to_string(other.link), place);
         }
@@ -112,7 +112,7 @@ void ArmPoses::check_axis_body(const MovingBodies& bodies, const AxisBody& body,
         }
     }
     const int own = body.part == BodyPart::spindle ? 6 : 7;
-    for (const LinkBody& link : bodies.links) {
+    for (const LinkCapsule& link : bodies.links) {
         if (may_touch(own, link.link) || distance(link.shape, around(body.shape)) > min_gap) continue;
         if (distance(link.shape, body.shape) <= min_gap) {
             collide(name + " meets link " + std::to_string(link.link), place);

@@ -1,4 +1,4 @@
-#include "base/shell_word.h"
+#include "base/printable.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include "devices/hand_off/dispatch.h"
 #include "devices/wire/modbus_tcp.h"
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "sim/cell/cell_sim.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/engine/presets.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/sample/sample.h"
 #include "tests/data_flow/data_flow.h"
 

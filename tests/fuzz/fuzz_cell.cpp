@@ -15,7 +15,7 @@ void demand_possible(const Robot& robot) {
         demand(std::isfinite(range.min) && std::isfinite(range.max));
     }
     for (const int sign : robot.geometry.sign) demand(sign == 1 || sign == -1);
-    for (const LinkCapsule& capsule : robot.capsules) demand(capsule.radius > 0 && capsule.link >= 0);
+    for (const LinkCapsule& capsule : robot.capsules) demand(capsule.shape.radius > 0 && capsule.link >= 0);
 }
 
 void demand_possible(const CellMachine& machine) {

@@ -7,7 +7,7 @@
 #include "app/cli/arguments/project_arguments.h"
 #include "app/store/project_folder.h"
 #include "base/error.h"
-#include "base/shell_word.h"
+#include "base/printable.h"
 #include "segment/io/read_mesh.h"
 
 namespace qchopper {

@@ -57,9 +57,9 @@ Json robot_json(const Robot& robot) {
         {"cable", cable},
         {"capsules", list_of(robot.capsules, [](const LinkCapsule& capsule) {
              return Json{{"link", capsule.link},
-                         {"from", json_of(capsule.from)},
-                         {"to", json_of(capsule.to)},
-                         {"radius", capsule.radius}};
+                         {"from", json_of(capsule.shape.from)},
+                         {"to", json_of(capsule.shape.to)},
+                         {"radius", capsule.shape.radius}};
          })}};
 }
 

@@ -45,7 +45,7 @@ CapTemplate with_foot(const CapTemplate& drawing) {
 
 std::string points_text(const std::vector<Point2>& line, double sheet_height) {
     std::string text;
-    for (const Point2& p : line) text += svg_number(p.x, 3) + "," + svg_number(sheet_height - p.y, 3) + " ";
+    for (const Point2& p : line) text += fixed(p.x, 3) + "," + fixed(sheet_height - p.y, 3) + " ";
     return text;
 }
 
@@ -84,8 +84,8 @@ CapTemplate cap_template(const DrawnCap& cap, const std::string& piece) {
 
 std::string template_svg(const CapTemplate& cap) {
     const CapTemplate drawing = with_foot(cap);
-    const std::string width = svg_number(drawing.sheet.x, 3);
-    const std::string height = svg_number(drawing.sheet.y, 3);
+    const std::string width = fixed(drawing.sheet.x, 3);
+    const std::string height = fixed(drawing.sheet.y, 3);
     const double up = drawing.sheet.y;
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "mm\" height=\"" + height +
                       "mm\" viewBox=\"0 0 " + width + " " + height +
@@ -98,13 +98,13 @@ std::string template_svg(const CapTemplate& cap) {
         svg += "<polyline points=\"" + points_text(line, up) + "\"/>\n";
     }
     for (const TemplateCircle& circle : drawing.circles) {
-        svg += "<circle cx=\"" + svg_number(circle.middle.x, 3) + "\" cy=\"" + svg_number(up - circle.middle.y, 3) +
-               "\" r=\"" + svg_number(circle.radius, 3) + "\"/>\n";
+        svg += "<circle cx=\"" + fixed(circle.middle.x, 3) + "\" cy=\"" + fixed(up - circle.middle.y, 3) + "\" r=\"" +
+               fixed(circle.radius, 3) + "\"/>\n";
     }
     svg += "</g>\n<g font-family=\"sans-serif\" fill=\"#000\">\n";
     for (const TemplateText& text : drawing.texts) {
-        svg += "<text x=\"" + svg_number(text.at.x, 3) + "\" y=\"" + svg_number(up - text.at.y, 3) + "\" font-size=\"" +
-               svg_number(text.height, 2) + "\"" + (text.is_centred ? " text-anchor=\"middle\"" : "") + ">" +
+        svg += "<text x=\"" + fixed(text.at.x, 3) + "\" y=\"" + fixed(up - text.at.y, 3) + "\" font-size=\"" +
+               fixed(text.height, 2) + "\"" + (text.is_centred ? " text-anchor=\"middle\"" : "") + ">" +
                svg_text(text.text) + "</text>\n";
     }
     return svg + "</g>\n</svg>\n";

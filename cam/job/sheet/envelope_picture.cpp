@@ -61,7 +61,7 @@ void add_moving(const Cell& cell, const ReachabilityPose& pose, std::vector<Body
     if (cell.machine->robot && !pose.joints) return;  // not reached
     const CuttingTool& tool = tool_of(*cell.machine, pose);
     const MovingBodies moving = bodies_at(cell, tool, pose.joints.value_or(Joints{}), pose.tip_in_cell);
-    for (const LinkBody& link : moving.links) {
+    for (const LinkCapsule& link : moving.links) {
         bodies.push_back({"link " + std::to_string(link.link), link_colour, capsule_mesh(link.shape)});
     }
     for (const AxisBody& body : moving.on_axis) {

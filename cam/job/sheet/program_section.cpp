@@ -3,7 +3,7 @@
 #include "cam/job/sheet/program_section.h"
 
 #include "base/text.h"
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 #include "cam/job/job_program.h"
 #include "cam/job/sheet/sheet_html.h"
 

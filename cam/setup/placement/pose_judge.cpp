@@ -88,7 +88,7 @@ PoseJudge::PoseJudge(const Cell& cell, const CuttingTool& tool)
     arm_ = tool_arm(*machine_.robot, machine_.spindle, tool);
     const Pose& tip = arm_->tip_in_flange;
     turns_by_axis_6_ = std::hypot(tip.shift.x, tip.shift.y) < 1e-6 && tip.row[2].z > 1 - 1e-12;
-    for (const LinkCapsule& own : machine_.robot->capsules) links_.push_back({own.link, {{}, {}, own.radius}});
+    links_ = machine_.robot->capsules;
 }
 
 StandingBlock PoseJudge::standing(const Pose& setup_in_cell, const Box& block_in_setup) const {
@@ -219,9 +219,7 @@ void PoseJudge::place_links(const Joints& joints) {
     const LinkMotions motions = link_motions(arm_->geometry, joints, arm_->base_in_cell);
     for (std::size_t i = 0; i < links_.size(); ++i) {
         const LinkCapsule& own = machine_.robot->capsules[i];
-        const Pose& motion = motions[static_cast<std::size_t>(own.link)];
-        links_[i].shape.from = apply(motion, own.from);
-        links_[i].shape.to = apply(motion, own.to);
+        links_[i].shape = moved(motions[static_cast<std::size_t>(own.link)], own.shape);
     }
 }
 
@@ -270,7 +268,7 @@ void PoseJudge::judge_tool(const StandingBlock& block, bool is_home, MarginTally
             if (!tally.wants(PoseCheck::tool_to_obstacle, distance(bound, standing_.obstacles[k]))) continue;
             tally.add(PoseCheck::tool_to_obstacle, distance(body.shape, standing_.obstacles[k]), {pair.first, code(k)});
         }
-        for (const LinkBody& link : links_) {
+        for (const LinkCapsule& link : links_) {
             if (may_touch(link_of(body.part), link.link)) continue;
             if (!tally.wants(PoseCheck::tool_to_arm, distance(link.shape, bound))) continue;
             const auto number = static_cast<std::uint16_t>(link.link);

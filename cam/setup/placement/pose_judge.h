@@ -86,7 +86,7 @@ class PoseJudge {
     StandingBodies standing_;
     std::vector<AxisBody> axis_bodies_;  // in the frame of the tip
     double lowest_holder_ = 0;           // of the pose's direction: height of holder and spindle over the tip
-    std::vector<LinkBody> links_;        // of the pose
+    std::vector<LinkCapsule> links_;     // of the pose
     std::vector<AxisBody> on_axis_;      // of the pose
     std::vector<std::optional<Joints>> joints_;
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "segment/io/formats/raw_mesh.h"
+#include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
@@ -19,7 +20,7 @@ constexpr std::size_t max_triangles = 0x55555554;                               
 // Corners of one face: more than any scanner or modeller writes. The time for splitting grows faster than the square.
 constexpr std::int64_t max_corners = 1000;
 
-// Counts the face in faces_in_file and appends its triangles (polygon.h). A face with fewer than three corners is
+// Counts the face in faces_in_file and appends its triangles (split_polygon). A face with fewer than three corners is
 // counted in faces_without_area and makes none. Precondition: every corner is the index of a point of the scan.
 void add_face(RawMesh& scan, std::span<const std::uint32_t> corners);
 
@@ -40,5 +41,14 @@ struct EarlyFaces {
         return std::span(corners).subspan(begin, end[face] - begin);
     }
 };
+
+// Splits a polygon in space without adding points: appends corners.size() - 2 triangles to `triangles`. Ears are found
+// in the plane of the polygon's area vector, so that concave polygons are right too; a polygon without such a plane
+// becomes a fan. Preconditions: at least three corners, each the index of a point. Tested by
+// tests/segment/io/formats/polygon_test.cpp. It is separate from segment/mesh/polygon.h and segment/cut/ear_clipping.h
+// because those compute in plane coordinates: a projection rounds differently, so other ears would be found and other
+// triangles be read from the same file.
+void split_polygon(const std::vector<Vec3>& points, std::span<const std::uint32_t> corners,
+                   std::vector<Triangle>& triangles);
 
 }  // namespace qchopper

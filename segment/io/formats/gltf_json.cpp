@@ -1,5 +1,6 @@
-// Copies the members that describe triangles from the parsed JSON into a new one and checks the type and the range of
-// each. O(bytes) in time; memory for both documents.
+// The header and the first chunk of a GLB are those of the glTF 2.0 specification (Khronos Group, 2021). The members
+// that describe triangles are copied from the parsed JSON into a new one, and the type and the range of each is
+// checked. O(bytes) in time; memory for both documents, and with_json copies the file once.
 
 #include "segment/io/formats/gltf_json.h"
 
@@ -9,9 +10,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "segment/io/formats/raw_mesh.h"
 
 namespace qchopper {
 namespace {
+
+std::uint32_t u32_at(const Bytes& bytes, std::size_t at) {
+    return std::uint32_t{bytes[at]} | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
+           std::uint32_t{bytes[at + 3]} << 24;
+}
 
 using Json = nlohmann::json;
 
@@ -250,6 +257,42 @@ class GltfFilter {
 
 }  // namespace
 
+bool is_glb(const Bytes& bytes) {
+    return bytes.size() >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
+}
+
+JsonChunk find_json(const Bytes& bytes, const std::string& name) {
+    if (!is_glb(bytes)) return {0, bytes.size(), bytes.size(), false};
+    constexpr std::size_t header = 20;               // bytes, of the file and of its first chunk
+    constexpr std::uint32_t json_type = 0x4e4f534a;  // "JSON"
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(InputFault::mesh, name + " is not a valid GLB file: " + why, export_again);
+    };
+    if (bytes.size() < header) refuse("it ends within its header");
+    if (u32_at(bytes, 4) != 2) refuse("only version 2 is read");
+    const std::uint32_t length = u32_at(bytes, 8);
+    if (length > bytes.size() || length < header) {
+        refuse("it should have " + std::to_string(length) + " bytes, but has " + std::to_string(bytes.size()));
+    }
+    const std::size_t json_size = u32_at(bytes, 12);
+    if (u32_at(bytes, 16) != json_type || json_size > length - header) refuse("its first chunk is not complete JSON");
+    return {header, header + json_size, length, true};
+}
+
+Bytes with_json(const Bytes& bytes, const JsonChunk& old, std::string json) {
+    while (json.size() % 4 != 0) json += ' ';
+    Bytes made(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(old.begin));
+    made.insert(made.end(), json.begin(), json.end());
+    made.insert(made.end(), bytes.begin() + static_cast<std::ptrdiff_t>(old.end),
+                bytes.begin() + static_cast<std::ptrdiff_t>(old.end_of_file));
+    const auto put = [&](std::size_t at, std::size_t value) {
+        for (std::size_t i = 0; i < 4; ++i) made[at + i] = static_cast<std::uint8_t>(value >> 8 * i);
+    };
+    put(8, made.size());
+    put(12, json.size());
+    return made;
+}
+
 PlainGltf plain_gltf(std::string_view json, bool has_bin, const std::string& name) {
     Json all;
     try {
@@ -259,7 +302,7 @@ PlainGltf plain_gltf(std::string_view json, bool has_bin, const std::string& nam
         throw InputError(InputFault::mesh,
                          name + " is not a valid glTF file: its JSON is damaged" +
                              (position != nullptr ? " at byte " + std::to_string(position->byte) : ""),
-                         "export or copy the file again");
+                         export_again);
     }
     return GltfFilter(all, has_bin, name).filtered();
 }

@@ -10,16 +10,8 @@ namespace {
 
 // Bytes of one number.
 std::size_t size_of(GltfComponent component) {
-    switch (component) {
-        case GltfComponent::i8:
-        case GltfComponent::u8:
-            return 1;
-        case GltfComponent::i16:
-        case GltfComponent::u16:
-            return 2;
-        default:
-            return 4;
-    }
+    if (component == GltfComponent::i8 || component == GltfComponent::u8) return 1;
+    return component == GltfComponent::i16 || component == GltfComponent::u16 ? 2 : 4;
 }
 
 }  // namespace

@@ -29,7 +29,6 @@ constexpr std::string_view core_before = "http://schemas.microsoft.com/3dmanufac
 constexpr std::string_view path_attribute = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 constexpr std::string_view lattice_start = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/";
 constexpr std::string_view start_relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-constexpr const char* export_again = "export or copy the file again";
 
 // Extensions without which the triangles are still right.
 constexpr std::array<std::string_view, 4> harmless{"http://schemas.microsoft.com/3dmanufacturing/production/",

@@ -126,7 +126,7 @@ class HeaderReader {
 
     [[noreturn]] void refuse(const std::string& why) const {
         throw InputError(InputFault::mesh, name_ + ": line " + std::to_string(line_) + " of the PLY header: " + why,
-                         "export or copy the file again");
+                         export_again);
     }
 
     std::string_view file_;

@@ -110,4 +110,13 @@ class BinaryValues {
     std::size_t at_;
 };
 
+// read(values) with the values of the body that follows a header of `file`, and its result.
+template <class Read>
+auto with_values(const PlyHeader& header, std::string_view file, const Read& read) {
+    if (header.format == MeshFormat::ply_little_endian)
+        return read(BinaryValues<std::endian::little>(file, header.size));
+    if (header.format == MeshFormat::ply_big_endian) return read(BinaryValues<std::endian::big>(file, header.size));
+    return read(AsciiValues(file.substr(header.size), header.lines));
+}
+
 }  // namespace qchopper

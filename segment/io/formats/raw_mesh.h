@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,10 +27,26 @@ enum class MeshFormat {
 };
 
 // "PLY, binary little-endian"
-std::string name_of(MeshFormat format);
+inline std::string name_of(MeshFormat format) {
+    constexpr std::array names{"PLY, ASCII",
+                               "PLY, binary little-endian",
+                               "PLY, binary big-endian",
+                               "STL, ASCII",
+                               "STL, binary",
+                               "OBJ",
+                               "OFF",
+                               "glTF",
+                               "GLB",
+                               "3MF"};  // in the order of MeshFormat
+    static_assert(names.size() == static_cast<std::size_t>(MeshFormat::three_mf) + 1);
+    return names.at(static_cast<std::size_t>(format));
+}
 
 // The formats that are read, for help texts and messages.
 constexpr const char* mesh_formats = "PLY, STL, OBJ, OFF, glTF, GLB or 3MF";
+
+// What to do about a damaged file.
+constexpr const char* export_again = "export or copy the file again";
 
 // As the readers return it: coordinates are finite, corners are indices of points, cap_of is empty or one per triangle
 // (tests/segment/io/damaged_test.cpp).

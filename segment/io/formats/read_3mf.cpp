@@ -12,15 +12,14 @@
 #include <set>
 
 #include "base/error.h"
-#include "segment/io/formats/gunzip.h"
 #include "segment/io/formats/model_3mf.h"
+#include "segment/io/formats/unpack.h"
 
 namespace qchopper {
 namespace {
 
 constexpr int max_depth = 100;               // of components in components
 constexpr std::size_t max_visits = 100'000;  // of objects: empty ones add no points and need a limit too
-constexpr const char* export_again = "export or copy the file again";
 
 std::string without_slash(const std::string& path) {
     return path.substr(path.starts_with('/') ? 1 : 0);

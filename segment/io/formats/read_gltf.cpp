@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "base/error.h"
-#include "segment/io/formats/glb_file.h"
 #include "segment/io/formats/gltf_json.h"
 #include "segment/io/formats/gltf_numbers.h"
 #include "segment/io/formats/placement.h"
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 constexpr double mm_per_metre = 1000;
 constexpr Placement z_up{{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}, {}};
 constexpr int max_depth = 1000;  // of nodes in nodes
-constexpr const char* export_again = "export the scan again";
 
 // The buffer files that tinygltf reads through callbacks. Its error texts hold no reason, so the first fault is kept
 // and thrown later.
@@ -95,7 +93,7 @@ tinygltf::Model load(const Bytes& bytes, const JsonChunk& chunk, std::string jso
     if (!is_loaded) {
         throw InputError(InputFault::mesh,
                          files.name + " is not a valid glTF file: its buffers, views and accessors do not fit together",
-                         export_again);
+                         "export the scan again");
     }
     return model;
 }
@@ -311,7 +309,7 @@ class SceneReader {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw InputError(InputFault::mesh, name_ + " is not a valid glTF file: " + why, export_again);
+        throw InputError(InputFault::mesh, name_ + " is not a valid glTF file: " + why, "export the scan again");
     }
 
     const tinygltf::Model& model_;

@@ -1,5 +1,5 @@
 // One pass over the lines, as the Advanced Visualizer manual (Wavefront, 1990), appendix B1, defines them; faces that
-// name later points are added at the end. O(bytes); polygon.cpp states the cost of polygons.
+// name later points are added at the end. O(bytes); add_face.cpp states the cost of polygons.
 
 #include "segment/io/formats/read_obj.h"
 
@@ -210,7 +210,7 @@ class ObjReader {
     [[noreturn]] void refuse(const std::string& why) const { refuse_at(lines_.number(), why); }
     [[noreturn]] void refuse_at(std::size_t line, const std::string& why) const {
         throw InputError(InputFault::mesh, name_ + ": line " + std::to_string(line) + " of the OBJ: " + why,
-                         "export or copy the file again");
+                         export_again);
     }
 
     Lines lines_;

@@ -1,4 +1,4 @@
-// One pass over the lines, as the Geomview manual defines them. O(bytes); polygon.cpp states the cost of polygons.
+// One pass over the lines, as the Geomview manual defines them. O(bytes); add_face.cpp states the cost of polygons.
 
 #include "segment/io/formats/read_off.h"
 
@@ -158,7 +158,7 @@ class OffReader {
 
     [[noreturn]] void refuse(const std::string& why) const {
         throw InputError(InputFault::mesh, name_ + ": line " + std::to_string(line_) + " of the OFF: " + why,
-                         "export or copy the file again");
+                         export_again);
     }
 
     Text text_;

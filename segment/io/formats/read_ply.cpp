@@ -1,5 +1,5 @@
 // One pass over the elements, in the order of the header, after G. Turk, "The PLY Polygon File Format", 1994. O(bytes);
-// polygon.cpp states the cost of polygons.
+// add_face.cpp states the cost of polygons.
 
 #include "segment/io/formats/read_ply.h"
 
@@ -247,7 +247,7 @@ class PlyBody {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw InputError(InputFault::mesh, name_ + ": " + why, "export or copy the file again");
+        throw InputError(InputFault::mesh, name_ + ": " + why, export_again);
     }
 
     const PlyHeader& header_;
@@ -271,14 +271,7 @@ RawMesh parse_ply(const Bytes& bytes, const std::string& name) {
     const std::string_view file = as_text(bytes);
     const PlyHeader header = read_ply_header(file, name);
     if (std::optional<RawMesh> scan = read_plain_ply(header, file)) return std::move(*scan);
-    switch (header.format) {
-        case MeshFormat::ply_little_endian:
-            return PlyBody(header, BinaryValues<std::endian::little>(file, header.size), name).read();
-        case MeshFormat::ply_big_endian:
-            return PlyBody(header, BinaryValues<std::endian::big>(file, header.size), name).read();
-        default:
-            return PlyBody(header, AsciiValues(file.substr(header.size), header.lines), name).read();
-    }
+    return with_values(header, file, [&](const auto& values) { return PlyBody(header, values, name).read(); });
 }
 
 }  // namespace qchopper

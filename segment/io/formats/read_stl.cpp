@@ -106,7 +106,7 @@ class AsciiStl {
         throw InputError(InputFault::mesh,
                          name_ + ": line " + std::to_string(text_.line()) + " of the ASCII STL should continue with " +
                              std::string(wanted) + ", but " + found,
-                         "export or copy the file again");
+                         export_again);
     }
 
     Text text_;

@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-std::uint32_t next_in_triangle(std::uint32_t half_edge) {
-    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
-}
-std::uint32_t previous_in_triangle(std::uint32_t half_edge) {
-    return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
-}
-
 // Calls on_fan(corners) for every fan: the corners at one point that are connected through edges with twins. Fans come
 // in the order of their first corner. A corner has the number of the half-edge that starts there.
 template <class OnFan>

@@ -37,6 +37,14 @@ IndexLists border_loops(const TriangleMesh& mesh, std::span<const std::uint32_t>
 // Mean of the points of a loop of half-edges, which is not empty.
 Vec3 centre_of(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
 
+// The half-edges of the same triangle after and before this one.
+inline std::uint32_t next_in_triangle(std::uint32_t half_edge) {
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+}
+inline std::uint32_t previous_in_triangle(std::uint32_t half_edge) {
+    return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+}
+
 inline std::uint32_t start_of(const TriangleMesh& mesh, std::uint32_t half_edge) {
     return mesh.triangles[half_edge / 3][half_edge % 3];
 }

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"
 

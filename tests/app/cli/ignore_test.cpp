@@ -7,7 +7,7 @@
 
 #include "app/cli/exit_code.h"
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"

@@ -9,7 +9,7 @@
 
 #include "app/cli/exit_code.h"
 #include "base/files/file.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"
 

@@ -9,8 +9,7 @@
 
 #include "app/cli/exit_code.h"
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "tests/app/cli/program.h"
 

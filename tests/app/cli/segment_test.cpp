@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/file.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"
 

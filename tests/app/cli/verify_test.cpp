@@ -13,7 +13,7 @@
 #include "base/files/zip.h"
 #include "base/hex.h"
 #include "base/sha256.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"

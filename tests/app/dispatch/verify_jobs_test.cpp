@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/jobs/job_proof.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "tests/app/jobs/proven_job.h"
 
 namespace qchopper {

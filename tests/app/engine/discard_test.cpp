@@ -12,7 +12,7 @@
 #include "app/store/replay.h"
 #include "base/error.h"
 #include "base/files/file.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
 

@@ -17,7 +17,7 @@
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/files/file.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
 

@@ -7,7 +7,7 @@
 
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper::planned {

@@ -7,7 +7,7 @@
 #include "app/store/project_folder.h"
 #include "base/error.h"
 #include "base/files/file.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/folder.h"
 #include "tests/shapes.h"
 

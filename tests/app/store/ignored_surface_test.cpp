@@ -11,7 +11,7 @@
 #include "app/store/project_folder.h"
 #include "app/store/project_json.h"
 #include "base/error.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/segmentation.h"
 #include "tests/folder.h"

@@ -10,7 +10,6 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/files/regular_file.h"
 #include "base/sha256.h"
 
 namespace qchopper {

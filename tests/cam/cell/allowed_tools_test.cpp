@@ -1,4 +1,4 @@
-#include "cam/cell/allowed_tools.h"
+#include "cam/cell/job_tools.h"
 
 #include <gtest/gtest.h>
 

@@ -87,7 +87,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     EXPECT_EQ(robot.base_in_cell, Pose{});
     EXPECT_EQ(robot.cable, (CableLimits{{-180 * degree, 180 * degree}, {-180 * degree, 180 * degree}}));
     ASSERT_EQ(robot.capsules.size(), 3U);
-    EXPECT_EQ(robot.capsules[0], (LinkCapsule{2, {350, 0, 675}, {350, 0, 1825}, 200}));
+    EXPECT_EQ(robot.capsules[0], (LinkCapsule{2, {{350, 0, 675}, {350, 0, 1825}, 200}}));
     ASSERT_TRUE(machine.rotary_table);
     EXPECT_EQ(machine.rotary_table->table_in_cell.shift, (Vec3{1450, 0, 300}));
     EXPECT_EQ(machine.rotary_table->speed, 30 * degree);

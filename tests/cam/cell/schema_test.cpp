@@ -45,7 +45,7 @@ void expect_same(std::span<const TableKeys> known) {
     for (const TableKeys& table : known) {
         const std::string path(table.path);
         EXPECT_FALSE(in_reader.contains(path)) << path;
-        in_reader[path] = names_of(table.keys);
+        in_reader[path] = names_of(table);
         if (in_reader[path].contains("sources")) in_reader[path + ".sources"] = names_of(table.with_origin());
     }
     EXPECT_EQ(in_schema, in_reader);
@@ -71,7 +71,7 @@ TEST(CellPage, ExplainsEveryKey) {
     bytes << stream.rdbuf();
     const std::string page = bytes.str();
     for (const TableKeys& table : keys_2::all) {
-        for (const std::string_view key : table.keys) {
+        for (const std::string_view key : Keys(table)) {
             EXPECT_TRUE(has_word(page, std::string(key))) << table.path << "." << key;
         }
     }

@@ -68,7 +68,7 @@ double clearance_at(const Job& job, const ProgramOperation& operation, const Joi
     const PlacedBox block = placed(
         setup, {-half - Vec3{0, 0, job.setup.spoil}, half + Vec3{0, 0, job.setup.block.size.z - job.setup.spoil}});
     double least = std::numeric_limits<double>::infinity();
-    for (const LinkBody& link : moving.links) {
+    for (const LinkCapsule& link : moving.links) {
         least = std::min(least, distance(link.shape, block));
         for (const PlacedBox& obstacle : standing.obstacles) least = std::min(least, distance(link.shape, obstacle));
     }

@@ -8,8 +8,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/connectivity/shells.h"
 #include "segment/mesh/measure.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "segment/import/import_scan.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/repair/repair.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "segment/import/import_scan.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/io/help.h"
 #include "tests/segment/io/wrappings.h"

@@ -4,8 +4,7 @@
 
 #include "segment/io/write_3mf.h"
 #include "segment/io/write_glb.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "tests/segment/io/help.h"
 #include "tests/segment/io/wrappings.h"
 #include "tests/shapes.h"

@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"

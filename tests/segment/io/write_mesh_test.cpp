@@ -4,8 +4,7 @@
 #include <cstring>
 
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"

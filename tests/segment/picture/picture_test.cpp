@@ -235,13 +235,13 @@ TEST(Picture, CountsItsRowsAndStopsWhenCancelled) {
 }
 
 TEST(Png, PixelsComeBackAsTheyWent) {
-    std::vector<Rgb> pixels;
+    Pixels pixels{7, 5, {}};
     for (int i = 0; i < 35; ++i) {
-        pixels.push_back({static_cast<std::uint8_t>(7 * i), static_cast<std::uint8_t>(255 - i), 13});
+        pixels.rows.push_back({static_cast<std::uint8_t>(7 * i), static_cast<std::uint8_t>(255 - i), 13});
     }
-    const Picture picture = decode(to_png(pixels, 7, 5));
+    const Picture picture = decode(to_png(pixels));
     EXPECT_EQ(picture.width, 7);
-    EXPECT_EQ(picture.pixels, pixels);
+    EXPECT_EQ(picture.pixels, pixels.rows);
 }
 
 TEST(Shade, ColoursGoForthAndBack) {

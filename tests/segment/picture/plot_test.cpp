@@ -198,9 +198,9 @@ TEST(Plot, DecadesAreInside) {
 }
 
 TEST(Plot, NumbersHaveAPointAndNoMinusZero) {
-    EXPECT_EQ(svg_number(-0.001, 2), "0.00");
-    EXPECT_EQ(svg_number(-0.01, 2), "-0.01");
-    EXPECT_EQ(svg_number(1234.5, 1), "1234.5");
+    EXPECT_EQ(fixed(-0.001, 2), "0.00");
+    EXPECT_EQ(fixed(-0.01, 2), "-0.01");
+    EXPECT_EQ(fixed(1234.5, 1), "1234.5");
     EXPECT_EQ(svg_colour({85, 144, 226}), "#5590e2");
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 void expect_twice_is_once(const TriangleMesh& mesh) {
     TriangleMesh again = mesh;
-    EXPECT_EQ(drop_repeated_faces(again), RepeatedFaces{});
+    EXPECT_EQ(drop_repeated_faces(again, edges(again)), RepeatedFaces{});
     EXPECT_EQ(again, mesh);
 }
 
@@ -38,7 +38,7 @@ TEST(Faces, RepeatedOnesGoAndTheFirstStays) {
             const Triangle& face = mesh.triangles[t];
             mesh.triangles.push_back({face[1], face[2], face[0]});
         }
-        EXPECT_EQ(drop_repeated_faces(mesh).repeated, (faces + 2) / 3) << shape.name;
+        EXPECT_EQ(drop_repeated_faces(mesh, edges(mesh)).repeated, (faces + 2) / 3) << shape.name;
         EXPECT_EQ(mesh, shape.mesh) << shape.name;
     }
 }
@@ -48,7 +48,7 @@ TEST(Faces, AFlapOnASurfaceGoesAndTheSurfaceStaysClosed) {
         TriangleMesh mesh = shape.mesh;
         const Triangle face = mesh.triangles[mesh.triangles.size() / 2];
         mesh.triangles.push_back({face[0], face[2], face[1]});
-        EXPECT_EQ(drop_repeated_faces(mesh).repeated, 1U) << shape.name;
+        EXPECT_EQ(drop_repeated_faces(mesh, edges(mesh)).repeated, 1U) << shape.name;
         EXPECT_EQ(mesh, shape.mesh) << shape.name;
     }
 }
@@ -57,7 +57,7 @@ TEST(Faces, AWallBetweenTwoSolidsGoesWithBothSides) {
     TriangleMesh mesh =
         shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}, 3), shapes::box({10, 0, 0}, {20, 10, 10}, 3)});
     weld(mesh);
-    const RepeatedFaces counts = drop_repeated_faces(mesh);
+    const RepeatedFaces counts = drop_repeated_faces(mesh, edges(mesh));
     EXPECT_EQ(counts.of_doubled_components, 36U);
     EXPECT_EQ(counts.repeated, 0U);
     EXPECT_TRUE(edges(mesh).faults.is_closed());
@@ -70,7 +70,7 @@ TEST(Faces, AFlatDoubledComponentApartFromTheSolidIsDropped) {
     const TriangleMesh fin = flat_square({20, 20, 20}, 5, 4);
     TriangleMesh mesh = shapes::joined({box, fin, shapes::turned_inside_out(fin)});
     weld(mesh);
-    EXPECT_EQ(drop_repeated_faces(mesh).of_doubled_components, 2 * fin.triangles.size());
+    EXPECT_EQ(drop_repeated_faces(mesh, edges(mesh)).of_doubled_components, 2 * fin.triangles.size());
     EXPECT_EQ(mesh.triangles, box.triangles);
     expect_twice_is_once(mesh);
 }
@@ -79,7 +79,7 @@ TEST(Faces, ASolidWithBothSidesOfItsSurfaceKeepsOne) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shapes::joined({shape.mesh, shapes::turned_inside_out(shape.mesh)});
         weld(mesh);
-        EXPECT_EQ(drop_repeated_faces(mesh).repeated, shape.mesh.triangles.size()) << shape.name;
+        EXPECT_EQ(drop_repeated_faces(mesh, edges(mesh)).repeated, shape.mesh.triangles.size()) << shape.name;
         EXPECT_EQ(mesh.triangles, shape.mesh.triangles) << shape.name;
     }
 }

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/choices.h"
+#include "segment/repair/options.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

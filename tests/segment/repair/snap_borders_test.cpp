@@ -1,4 +1,3 @@
-#include "segment/repair/snap_borders.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"

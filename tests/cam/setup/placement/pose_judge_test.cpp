@@ -246,7 +246,8 @@ class PlainJudge {
         for (const LinkCapsule& own : robot_.capsules) {
             const Vec3 origin = origin_upright(robot_.geometry, own.link);
             const Pose& frame = frames_[static_cast<std::size_t>(own.link)];
-            links_.push_back({true, apply(frame, own.from - origin), apply(frame, own.to - origin), own.radius});
+            const Capsule& c = own.shape;
+            links_.push_back({true, apply(frame, c.from - origin), apply(frame, c.to - origin), c.radius});
         }
         const Pose nose = frames_[6] * machine_.spindle.spindle_in_flange;
         const auto along = [&](double z) { return apply(nose, {0, 0, z}); };

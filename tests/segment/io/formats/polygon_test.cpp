@@ -1,4 +1,4 @@
-#include "segment/io/formats/polygon.h"
+#include "segment/io/formats/add_face.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "segment/io/read_mesh.h"
-#include "segment/io/write_ply.h"
+#include "segment/io/write_mesh.h"
 #include "tests/segment/io/help.h"
 #include "tests/shapes.h"
 

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "segment/io/formats/gunzip.h"
+#include "segment/io/formats/unpack.h"
 #include "segment/io/read_mesh.h"
-#include "segment/io/to_utf8.h"
-#include "segment/io/write_ply.h"
-#include "segment/io/write_stl.h"
+#include "segment/io/write_mesh.h"
 #include "tests/segment/io/help.h"
 #include "tests/segment/io/wrappings.h"
 #include "tests/shapes.h"

@@ -1,6 +1,6 @@
 // Names of fills, and options from choices.
 
-#include "segment/repair/choices.h"
+#include "segment/repair/options.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 //
 // Existing points and triangles keep their order and their bits; the new ones come last, and new triangles get no_cap
 // where the mesh has caps. The bunny of the Stanford scanning repository comes out with 69,664 faces
-// (tests/segment/repair/holes/fill_holes_test.cpp).
+// (tests/segment/repair/fill_holes_test.cpp).
 
 #pragma once
 
@@ -44,5 +44,11 @@ struct FilledHoles {
 // Precondition: the mesh is manifold apart from its borders, and no border loop touches itself or another one in a
 // point (split_non_manifold_vertices in manifold.h). Throws Cancelled, and then leaves the mesh as it was.
 FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options = {}, const Context& context = {});
+
+// Triangles that close one loop of points in space, adding no point: those with the least dihedral angles and area (P.
+// Liepa, "Filling holes in meshes", 2003, as in CGAL). Their corners are positions in the loop, ascending, so each
+// triangle is oriented as the loop runs. beyond[i], one per point, is the third corner of the triangle on the other
+// side of the edge from loop[i] to the next point. Empty if no surface is found.
+std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector<Vec3>& beyond);
 
 }  // namespace qchopper

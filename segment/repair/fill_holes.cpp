@@ -1,25 +1,31 @@
 // Borders are closed by the minimum-weight triangulation of P. Liepa, "Filling holes in meshes" (2003), as in CGAL.
 // It searches among the faces of the Delaunay tetrahedra of a loop first; where these do not close a loop of n <= 400
 // edges, among all triangles in O(n^3). The mesh is copied once: OpenMesh holds the connectivity. CGAL would round
-// points that it writes to an OpenMesh mesh to float; a flat fill writes none.
+// points that it writes to an OpenMesh mesh to float; a flat fill writes none. A fair fill is triangulated, refined to
+// the density of the border and faired. Fairing reads two rings of the surface, so CGAL gets only a strip around the
+// loop: O(points + triangles) of the mesh to find it, and a sparse linear system.
 
-#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 // OpenMesh first: CGAL's header adapts to it
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
+#include <CGAL/utility.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/holes/fair_hole.h"
 
 namespace qchopper {
 namespace {
@@ -28,10 +34,15 @@ struct FillTraits : OpenMesh::DefaultTraits {
     using Point = OpenMesh::Vec3d;
     using Normal = OpenMesh::Vec3d;
 };
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using StripSurface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Surface = OpenMesh::TriMesh_ArrayKernelT<FillTraits>;
 
 // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
 constexpr std::size_t max_edges_for_full_search = 400;
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr int rings = 3;  // of the strip that a fair fill continues
 
 // Returns false where the mesh is no manifold that half-edges can hold.
 bool build(const TriangleMesh& mesh, Surface& surface) {
@@ -89,6 +100,102 @@ double longest_chord(const TriangleMesh& mesh, std::span<const std::uint32_t> lo
         }
     }
     return longest;
+}
+
+// New points, and triangles over the points of the mesh followed by these: the first new point has the number
+// mesh.points.size().
+struct FairFill {
+    std::vector<Vec3> points;
+    std::vector<Triangle> triangles;
+};
+
+struct Strip {
+    StripSurface surface;
+    std::vector<std::uint32_t> number;  // per vertex of the surface the point of the mesh
+    std::vector<std::uint32_t> vertex;  // per point of the mesh the vertex of the surface, or none
+};
+
+std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
+    std::vector<bool> is_near(mesh.points.size());
+    for (const std::uint32_t h : loop) is_near[start_of(mesh, h)] = true;
+    std::vector<std::uint32_t> found;
+    for (int ring = 0; ring < rings; ++ring) {
+        found.clear();
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            const Triangle& v = mesh.triangles[t];
+            if (is_near[v[0]] || is_near[v[1]] || is_near[v[2]]) found.push_back(t);
+        }
+        for (const std::uint32_t t : found) {
+            for (const std::uint32_t v : mesh.triangles[t]) is_near[v] = true;
+        }
+    }
+    return found;
+}
+
+std::optional<Strip> strip_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
+    Strip strip;
+    strip.vertex.assign(mesh.points.size(), none);
+    for (const std::uint32_t t : triangles_around(mesh, loop)) {
+        StripSurface::Vertex_index corner[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t v = mesh.triangles[t][i];
+            if (strip.vertex[v] == none) {
+                const Vec3 p = mesh.points[v];
+                strip.vertex[v] = strip.surface.add_vertex({p.x, p.y, p.z});
+                strip.number.push_back(v);
+            }
+            corner[i] = StripSurface::Vertex_index(strip.vertex[v]);
+        }
+        if (strip.surface.add_face(corner[0], corner[1], corner[2]) == StripSurface::null_face()) return std::nullopt;
+    }
+    return strip;
+}
+
+// Whether no new point is farther from the centre of the loop than three times the radius of the loop.
+bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
+    const Vec3 centre = centre_of(mesh, loop);
+    double radius = 0;
+    for (const std::uint32_t h : loop) radius = std::max(radius, norm(mesh.points[start_of(mesh, h)] - centre));
+    return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return norm(p - centre) <= 3 * radius; });
+}
+
+// Closes one loop with a refined and faired fill, which continues the curvature of the surface around it. `loop` is one
+// of border_loops (manifold.h). Returns nothing if no fill is found, or one that reaches farther from the centre of the
+// loop than three times the radius of the loop. The mesh stays as it is.
+std::optional<FairFill> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
+    namespace pmp = CGAL::Polygon_mesh_processing;
+    std::optional<Strip> strip = strip_around(mesh, loop);
+    if (!strip) return std::nullopt;
+    StripSurface& surface = strip->surface;
+    const StripSurface::Halfedge_index border =
+        surface.halfedge(StripSurface::Vertex_index(strip->vertex[end_of(mesh, loop.front())]),
+                         StripSurface::Vertex_index(strip->vertex[start_of(mesh, loop.front())]));
+    if (border == StripSurface::null_halfedge() || !surface.is_border(border)) return std::nullopt;
+    std::vector<StripSurface::Face_index> faces;
+    std::vector<StripSurface::Vertex_index> vertices;
+    pmp::triangulate_refine_and_fair_hole(
+        surface, border, std::back_inserter(faces), std::back_inserter(vertices),
+        pmp::parameters::fairing_continuity(1).do_not_use_cubic_algorithm(loop.size() > max_edges_for_full_search));
+    if (faces.empty()) return std::nullopt;
+    FairFill fill;
+    std::sort(vertices.begin(), vertices.end());
+    strip->number.resize(surface.number_of_vertices(), none);
+    for (const StripSurface::Vertex_index v : vertices) {
+        const Kernel::Point_3& p = surface.point(v);
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) return std::nullopt;
+        strip->number[v] = static_cast<std::uint32_t>(mesh.points.size() + fill.points.size());
+        fill.points.push_back({p.x(), p.y(), p.z()});
+    }
+    if (!is_near(fill.points, mesh, loop)) return std::nullopt;
+    for (const StripSurface::Face_index face : faces) {
+        Triangle triangle{};
+        std::size_t i = 0;
+        for (const StripSurface::Vertex_index v : surface.vertices_around_face(surface.halfedge(face))) {
+            triangle[i++] = strip->number[v];
+        }
+        fill.triangles.push_back(triangle);
+    }
+    return fill;
 }
 
 class Filling {
@@ -161,6 +268,27 @@ FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options, const Con
     const IndexLists loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
     if (loops.empty()) return {};
     return Filling(mesh, options).run(loops, context);
+}
+
+std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector<Vec3>& beyond) {
+    constexpr std::size_t max_edges = 200;  // as max_edges_for_full_search; many loops are tried
+    std::vector<Kernel::Point_3> points;
+    std::vector<Kernel::Point_3> thirds;
+    points.reserve(loop.size());
+    thirds.reserve(beyond.size());
+    for (const Vec3& p : loop) points.emplace_back(p.x, p.y, p.z);
+    for (const Vec3& p : beyond) thirds.emplace_back(p.x, p.y, p.z);
+    std::vector<CGAL::Triple<int, int, int>> found;
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
+        points, thirds, std::back_inserter(found),
+        CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > max_edges));
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : found) {
+        Triangle t{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
+        std::sort(t.begin(), t.end());  // ascending positions run along the loop
+        triangles.push_back(t);
+    }
+    return triangles;
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,17 @@
-// Reads `source` and `sources` of one table. O(keys).
+// A table of names in the order of Origin; `source` and `sources` of one table of the file. O(keys).
+
+#include "cam/cell/cell_tables.h"
+
+#include <array>
+#include <cstddef>
 
 #include "base/toml_reader.h"
-#include "cam/cell/cell_tables.h"
 
 namespace qchopper {
 namespace {
+
+constexpr std::array<std::string_view, 5> names{"data sheet", "measured", "assumed", "unstated", "by default"};
+constexpr std::size_t names_in_files = 3;
 
 Origin read_origin(const TomlReader& reader, std::string_view key) {
     const std::string word = reader.text(key);
@@ -14,6 +21,17 @@ Origin read_origin(const TomlReader& reader, std::string_view key) {
 }
 
 }  // namespace
+
+std::string_view to_word(Origin origin) {
+    return names[static_cast<std::size_t>(origin)];
+}
+
+std::optional<Origin> origin_of(std::string_view word) {
+    for (std::size_t i = 0; i < names_in_files; ++i) {
+        if (names[i] == word) return static_cast<Origin>(i);
+    }
+    return std::nullopt;
+}
 
 void add_origins(const TomlReader& reader, const TableKeys& table, const std::string& name, Origins& origins) {
     const Origin of_table = reader.has("source") ? read_origin(reader, "source") : Origin::unstated;
