@@ -46,16 +46,11 @@ double way_out(const Box& box, Vec3 from, Vec3 direction) {
     return std::max(0.0, way);
 }
 
-// Of the map under a point above it, 0 where there is no surface.
+// Of the map under a point above it, 0 where there is no surface, beside the map, and of a triangle without normal.
 float height_above(const HeightField& map, Vec3 point) {
     const Vec3 p = apply(map.piece_in_field, point);
-    const double column = p.x / map.cell;
-    const double row = p.y / map.cell;
-    if (!(column >= 0) || !(row >= 0)) return 0;  // beside it, or the triangle has no normal
-    const auto c = static_cast<std::size_t>(column);
-    const auto r = static_cast<std::size_t>(row);
-    if (c >= map.columns || r >= map.rows) return 0;
-    return std::max(0.0F, map.at(c, r) - static_cast<float>(p.z));
+    const std::optional<std::size_t> cell = map.cell_under(p.x, p.y);
+    return cell ? std::max(0.0F, map.height[*cell] - static_cast<float>(p.z)) : 0;
 }
 
 // Whether no surface nearby is much higher than a point: a triangle at the outline of what lies over it may be taken as

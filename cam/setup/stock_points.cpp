@@ -42,10 +42,8 @@ CellSpan squares(double low, double high, double step, std::size_t count) {
 
 // The value of a map at the cell that holds a place in cells, or `nothing` beside the map.
 float nearest(const HeightField& map, double column, double row) {
-    if (!(column >= 0) || !(row >= 0)) return HeightField::nothing;
-    const auto c = static_cast<std::size_t>(column);
-    const auto r = static_cast<std::size_t>(row);
-    return c < map.columns && r < map.rows ? map.at(c, r) : HeightField::nothing;
+    const std::optional<std::size_t> cell = map.cell_holding(column, row);
+    return cell ? map.height[*cell] : HeightField::nothing;
 }
 
 // Between the middles of the four cells around a place in cells; `own`, that of the nearest, where they differ much.

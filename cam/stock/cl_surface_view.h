@@ -7,15 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
-
-// One byte a cell, row by row as HeightField::height; 0: not in it.
-using CellMask = std::vector<std::uint8_t>;
 
 // What is to be finished, and the cells beside it over which passes may go as well.
 struct PassCells {
@@ -57,8 +52,5 @@ class ClSurfaceView {
     const HeightField* map_;
     bool is_turned_;
 };
-
-// Every cell at most so many rows and columns from one of the mask.
-CellMask dilated(const CellMask& mask, std::size_t columns, std::size_t rows, std::size_t by);
 
 }  // namespace qchopper

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cam/stock/cl_surface.h"
-#include "cam/stock/cl_surface_view.h"
 #include "segment/mesh/polygon.h"
 
 namespace qchopper {

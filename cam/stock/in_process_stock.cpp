@@ -22,6 +22,7 @@
 #include "base/box.h"
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
+#include "segment/raster/cells_under.h"
 #include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
@@ -56,20 +57,6 @@ Span span_in(const Box& box, Vec3 point, Vec3 along) {
     }
     return span;
 }
-
-// The cells of a row or a column whose centres lie between two places.
-struct CellSpan {
-    std::size_t first = 0;
-    std::size_t end = 0;
-
-    CellSpan(double low, double high, double cell, std::size_t count) {
-        const auto within = [&](double at) {
-            return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(count)));
-        };
-        first = within(std::ceil(low / cell - 0.5));
-        end = within(std::floor(high / cell - 0.5) + 1);
-    }
-};
 
 // Where a tool on a line comes lowest over cells of a row, in single precision and without branches, so that several
 // are computed at once. Coordinates are relative to the beginning of the line.
@@ -131,12 +118,8 @@ struct LowestPlaces {
 
 // Whether a point of a map's frame lies above the map.
 bool is_above(const HeightField& map, Vec3 p) {
-    const double column = p.x / map.cell;
-    const double row = p.y / map.cell;
-    if (!(column >= 0 && row >= 0)) return false;
-    const auto c = static_cast<std::size_t>(column);
-    const auto r = static_cast<std::size_t>(row);
-    return c < map.columns && r < map.rows && p.z > static_cast<double>(map.at(c, r));
+    const std::optional<std::size_t> cell = map.cell_under(p.x, p.y);
+    return cell && p.z > static_cast<double>(map.height[*cell]);
 }
 
 // What another direction removed, raised so that a sample speaks for all that is less than a cell away.
@@ -285,7 +268,8 @@ void ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) 
     const double slope = is_point ? 0 : (to.z - from.z) / length;
     LowestPlaces places(along, end, slope, cell_, outer_);
     const auto base = static_cast<float>(from.z);
-    const CellSpan rows(std::min(from.y, to.y) - outer_, std::max(from.y, to.y) + outer_, cell_, map.rows);
+    const CellSpan rows =
+        centres_within((std::min(from.y, to.y) - outer_) / cell_, (std::max(from.y, to.y) + outer_) / cell_, map.rows);
     for (std::size_t row = rows.first; row < rows.end; ++row) {
         const double y = cell_ * (static_cast<double>(row) + 0.5) - from.y;
         double low = std::min(from.x, to.x) - outer_;
@@ -296,7 +280,7 @@ void ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) 
             low = std::max(low, middle - outer_ / std::abs(along.y));
             high = std::min(high, middle + outer_ / std::abs(along.y));
         }
-        const CellSpan columns(low, high, cell_, map.columns);
+        const CellSpan columns = centres_within(low / cell_, high / cell_, map.columns);
         float* own = map.height.data() + row * map.columns;
         float* others = other.height.data() + row * map.columns;
         for (std::size_t first = columns.first; first < columns.end; first += cells_at_once) {

@@ -2,10 +2,11 @@
 // is cut into the strips of the rows (I. E. Sutherland and G. W. Hodgman, "Reentrant polygon clipping", 1974); the
 // corners of its parts in cells are then the corners of a strip and where the sides of a strip cross the lines between
 // columns. O(triangles + cells covered); several threads raise a cell to the highest of them, whatever their order.
+//
+// cells_under.h finds centres only: here each cell that a triangle touches counts, with the highest point in it.
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
 #include "segment/mesh/footprint.h"
+#include "segment/raster/shared_value.h"
 
 namespace qchopper {
 namespace {
@@ -29,13 +31,6 @@ float rounded_up(double height) {
     const float up =
         static_cast<double>(nearest) < height ? std::nextafter(nearest, std::numeric_limits<float>::max()) : nearest;
     return up + 0.0F;
-}
-
-void raise_cell(float& cell, float to) {
-    const std::atomic_ref<float> shared(cell);
-    float before = shared.load(std::memory_order_relaxed);
-    while (before < to && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
-    }
 }
 
 // A convex polygon in cells across and mm along the direction: a triangle cut by two lines has five corners.
@@ -90,7 +85,7 @@ class CellRow {
  private:
     void raise(std::ptrdiff_t column, double z) {
         if (column < 0 || column >= static_cast<std::ptrdiff_t>(columns_)) return;
-        raise_cell(first_[column], rounded_up(z));
+        raise_shared(first_[column], rounded_up(z));
     }
 
     float* first_;

@@ -161,8 +161,8 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space
     const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
     const HeightField free = free_above(space, inner, tool.flute_length);
     return divided(passes, 0.5 * space.stock.cell, [&](Vec3 p) {
-        if (min_height(free, p.x, p.y) <= p.z) return true;
-        return min_height(space.holder_clearance_height, p.x, p.y) <= p.z &&
+        if (static_cast<double>(free.height_under(p.x, p.y)) <= p.z) return true;
+        return static_cast<double>(space.holder_clearance_height.height_under(p.x, p.y)) <= p.z &&
                !is_dilation_above(space.centre_stock, p.x, p.y, inner, p.z + tool.flute_length);
     });
 }

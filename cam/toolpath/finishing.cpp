@@ -31,6 +31,7 @@
 #include "cam/toolpath/raster_passes.h"
 #include "cam/toolpath/scallop.h"
 #include "cam/toolpath/waterline_passes.h"
+#include "segment/raster/square_dilation.h"
 
 namespace qchopper {
 namespace {
@@ -121,7 +122,7 @@ WaterlineFloor foot_of_walls(const HeightField& tip, const FinishingRegion& floo
     for (std::size_t i = 0; i < floor.size(); ++i) {
         if (floor[i] < not_finished && static_cast<double>(tip.height[i]) < foot.top) foot.cells[i] = 1;
     }
-    foot.cells = dilated(foot.cells, tip.columns, tip.rows, 1);
+    foot.cells = dilate_by_square(foot.cells, tip.columns, tip.rows, 1);
     return foot;
 }
 
@@ -241,11 +242,11 @@ std::vector<Pass> finishing_passes(const HeightField& tip, const CuttingTool& to
     report(1);
     SteepRegions(tip, masks).give_low_ones_to_flat(0.5 * stepover);
     const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / tip.cell));
-    const FinishingRegion wide_region = dilated(region, tip.columns, tip.rows, by);
+    const FinishingRegion wide_region = erode_by_square(region, tip.columns, tip.rows, by);
     report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * stepover, options.rounding};
     // With the cells at the foot of a wall: squares of waterlines() may begin at them.
-    CellMask steep = SurfaceGrowth(dilated(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * stepover).mask();
+    CellMask steep = SurfaceGrowth(dilate_by_square(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * stepover).mask();
     WaterlineFloor foot;
     if (options.floor != nullptr) {
         foot = foot_of_walls(tip, *options.floor, radius);

@@ -11,8 +11,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/stock/cl_surface_view.h"
 #include "segment/mesh/measure.h"
+#include "segment/raster/shared_value.h"
+#include "segment/raster/square_dilation.h"
 
 namespace qchopper {
 namespace {
@@ -26,47 +27,12 @@ constexpr double lowest_facing = -0.2;
 constexpr std::uint8_t worst_under_edges = 1;  // k of overhanging surface; with more, much is milled to no avail
 constexpr std::size_t triangles_at_once = 1024;
 
-// The least of the `width` values from each one on, in place; the last ones have fewer.
-void min_ahead(float* first, std::size_t count, std::size_t width) {
-    std::size_t done = 1;
-    while (done < width) {
-        const std::size_t by = std::min(done, width - done);
-        for (std::size_t i = 0; i + by < count; ++i) first[i] = std::min(first[i], first[i + by]);
-        done += by;
-    }
-}
-
-// A line of cells, `stride` apart, each as low as the lowest within `by`.
-void grow_line(float* first, std::size_t count, std::size_t stride, std::size_t by, std::vector<float>& line) {
-    line.assign(count + by, not_finished);
-    for (std::size_t i = 0; i < count; ++i) line[i + by] = first[i * stride];
-    min_ahead(line.data(), line.size(), 2 * by + 1);
-    for (std::size_t i = 0; i < count; ++i) first[i * stride] = line[i];
-}
-
-void lower_cell(float& cell, float to) {
-    const std::atomic_ref<float> shared(cell);
-    float before = shared.load(std::memory_order_relaxed);
-    while (to < before && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
-    }
-}
-
-// The cell under a point of the map; nothing beside the map.
-std::optional<std::size_t> cell_under(const HeightField& map, Vec3 p) {
-    const double column = std::floor(p.x / map.cell);
-    const double row = std::floor(p.y / map.cell);
-    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
-        return std::nullopt;
-    }
-    return static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column);
-}
-
 // k for at most near * 2^k of foam over a point of the map.
 std::uint8_t foam_class(const HeightField& remaining, Vec3 at, Vec3 normal, double near) {
     double far = near;
     for (std::uint8_t k = 0; k < max_twice; ++k, far *= 2) {
         const Vec3 p = at + far * normal;
-        const auto cell = cell_under(remaining, p);
+        const auto cell = remaining.cell_under(p.x, p.y);
         if (!cell || static_cast<double>(remaining.height[*cell]) <= p.z) return k;
     }
     return all;
@@ -79,20 +45,6 @@ std::uint8_t class_of(double foam, double near) {
 }
 
 }  // namespace
-
-FinishingRegion dilated(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by) {
-    FinishingRegion result = region;
-    if (by == 0) return result;
-    parallel_ranges(0, rows, 16, [&](std::size_t first, std::size_t end) {
-        std::vector<float> line;
-        for (std::size_t r = first; r < end; ++r) grow_line(&result[r * columns], columns, 1, by, line);
-    });
-    parallel_ranges(0, columns, 64, [&](std::size_t first, std::size_t end) {
-        std::vector<float> line;
-        for (std::size_t c = first; c < end; ++c) grow_line(&result[c], rows, columns, by, line);
-    });
-    return result;
-}
 
 RestMaterial::RestMaterial(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing)
     : mesh_(&mesh), spacing_(spacing), first_point_(mesh.triangles.size() + 1, 0) {
@@ -151,14 +103,14 @@ FinishingRegion RestMaterial::take(const HeightField& remaining, double near, do
                 before_[index] = left_[index];
                 left_[index] = k;
                 taken_by_[index] = static_cast<std::uint16_t>(takes_);
-                const auto cell = cell_under(remaining, at);
-                if (cell) lower_cell(region[*cell], static_cast<float>(at.z));
+                const auto cell = remaining.cell_under(at.x, at.y);
+                if (cell) lower_shared(region[*cell], static_cast<float>(at.z));
             });
         }
     });
     const double beside = std::max(overlap, spacing_);
-    return dilated(region, remaining.columns, remaining.rows,
-                   static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
+    return erode_by_square(region, remaining.columns, remaining.rows,
+                           static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
 }
 
 bool RestMaterial::give_back(std::size_t take, const HeightField& remaining, double near) {
@@ -203,7 +155,7 @@ void add_floor_band(FinishingRegion& region, const HeightField& target, double w
     CellMask piece(region.size(), 0);
     for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = target.height[i] > floor + 1e-3F ? 1 : 0;
     const auto by = static_cast<std::size_t>(std::ceil(width / target.cell));
-    const CellMask band = dilated(piece, target.columns, target.rows, by);
+    const CellMask band = dilate_by_square(piece, target.columns, target.rows, by);
     for (std::size_t i = 0; i < piece.size(); ++i) {
         if (band[i] != 0 && piece[i] == 0) region[i] = std::min(region[i], target.height[i]);
     }

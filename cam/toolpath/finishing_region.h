@@ -20,9 +20,6 @@ namespace qchopper {
 using FinishingRegion = std::vector<float>;
 constexpr float not_finished = std::numeric_limits<float>::infinity();
 
-// Every cell as low as the lowest at most so many rows and columns from it.
-FinishingRegion dilated(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by);
-
 // What the directions and tools so far have left over the surface of a piece.
 class RestMaterial {
  public:

@@ -75,14 +75,13 @@ class RoughingLevels {
     LevelRegion region(double level) const {
         LevelRegion region{space_.stock.cell, space_.stock.columns, space_.stock.rows, {}, {}};
         const auto height = static_cast<float>(level);
-        const std::vector<std::uint8_t> core =
-            near_stock(space_.stock, static_cast<float>(level + min_above()), core_radius_);
-        const std::vector<std::uint8_t> skin =
+        const CellMask core = near_stock(space_.stock, static_cast<float>(level + min_above()), core_radius_);
+        const CellMask skin =
             near_stock(space_.centre_stock, static_cast<float>(level + highest_skin()), flute_radius_);
-        const std::vector<std::uint8_t> over_flute =
+        const CellMask over_flute =
             near_stock(space_.centre_stock, static_cast<float>(level + tool_.flute_length), flute_radius_);
         region.is_allowed.resize(core.size());
-        std::vector<std::uint8_t> work(core.size());
+        CellMask work(core.size());
         for (std::size_t i = 0; i < core.size(); ++i) {
             const bool is_allowed = space_.cl_limit->height[i] <= height &&
                                     space_.holder_clearance_height.height[i] <= height && over_flute[i] == 0;
@@ -95,8 +94,8 @@ class RoughingLevels {
 
  private:
     // The cells that have foam above a height within a radius.
-    static std::vector<std::uint8_t> near_stock(const HeightField& stock, float height, double radius) {
-        std::vector<std::uint8_t> above(stock.height.size());
+    static CellMask near_stock(const HeightField& stock, float height, double radius) {
+        CellMask above(stock.height.size());
         for (std::size_t i = 0; i < above.size(); ++i) above[i] = stock.height[i] > height ? 1 : 0;
         return marked_within(above, stock.columns, stock.rows, radius / stock.cell);
     }

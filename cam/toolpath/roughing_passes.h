@@ -7,10 +7,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "cam/toolpath/pass.h"
+#include "segment/raster/height_field.h"
 
 namespace qchopper {
 
@@ -19,8 +19,8 @@ struct LevelRegion {
     double cell = 1;  // mm
     std::size_t columns = 0;
     std::size_t rows = 0;
-    std::vector<std::uint8_t> is_allowed;  // the tip may be there
-    std::vector<std::uint8_t> is_wanted;   // it has something to do there; looked at where it is allowed
+    CellMask is_allowed;  // the tip may be there
+    CellMask is_wanted;   // it has something to do there; looked at where it is allowed
 
     bool allowed(std::ptrdiff_t column, std::ptrdiff_t row) const { return is_in(is_allowed, column, row); }
     bool wanted(std::ptrdiff_t column, std::ptrdiff_t row) const {
@@ -28,7 +28,7 @@ struct LevelRegion {
     }
 
  private:
-    bool is_in(const std::vector<std::uint8_t>& cells, std::ptrdiff_t column, std::ptrdiff_t row) const {
+    bool is_in(const CellMask& cells, std::ptrdiff_t column, std::ptrdiff_t row) const {
         return column >= 0 && row >= 0 && static_cast<std::size_t>(column) < columns &&
                static_cast<std::size_t>(row) < rows &&
                cells[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] != 0;

@@ -72,6 +72,15 @@ HeightField dilate_by_disc(const HeightField& map, double radius) {
     return highest;
 }
 
+void raise_over_disc(HeightField& tip, const HeightField& map, double radius, double above) {
+    assert(tip.height.size() == map.height.size());
+    const HeightField highest = dilate_by_disc(map, radius);
+    const auto less = static_cast<float>(above);
+    for (std::size_t i = 0; i < tip.height.size(); ++i) {
+        tip.height[i] = std::max(tip.height[i], highest.height[i] - less);
+    }
+}
+
 namespace {
 
 using Words = std::vector<std::uint64_t>;
@@ -95,8 +104,7 @@ void unite_shifted(Words& to, const Words& from, std::size_t cells) {
 
 }  // namespace
 
-std::vector<std::uint8_t> marked_within(const std::vector<std::uint8_t>& marks, std::size_t columns, std::size_t rows,
-                                        double cells) {
+CellMask marked_within(const CellMask& marks, std::size_t columns, std::size_t rows, double cells) {
     assert(marks.size() == columns * rows && cells >= 0);
     const std::size_t width = (columns + word_bits - 1) / word_bits;
     Words found(width * rows, 0);
@@ -126,7 +134,7 @@ std::vector<std::uint8_t> marked_within(const std::vector<std::uint8_t>& marks, 
             for (std::size_t i = 0; i < width; ++i) words[i] |= wide[i];
         }
     }
-    std::vector<std::uint8_t> result(marks.size());
+    CellMask result(marks.size());
     parallel_for(0, rows, [&](std::size_t row) {
         for (std::size_t i = 0; i < width; ++i) {
             const std::uint64_t word = found[row * width + i];

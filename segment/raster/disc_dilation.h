@@ -6,8 +6,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "segment/raster/height_field.h"
 
@@ -23,9 +21,12 @@ float dilation_at(const HeightField& map, double x, double y, double radius);
 // Whether that is above a height.
 bool is_dilation_above(const HeightField& map, double x, double y, double radius, double height);
 
+// Raises tips to where a disc that is `above` them is clear of a map with the same cells: to the dilation less that.
+// Cost as of dilate_by_disc.
+void raise_over_disc(HeightField& tip, const HeightField& map, double radius, double above);
+
 // Which cells have a marked one within so many cells: where dilate_by_disc() of 1 for marked cells and 0 for others
 // is 1. Preconditions: one mark per cell, row by row; cells >= 0. O(rows * columns / 64 * cells).
-std::vector<std::uint8_t> marked_within(const std::vector<std::uint8_t>& marks, std::size_t columns, std::size_t rows,
-                                        double cells);
+CellMask marked_within(const CellMask& marks, std::size_t columns, std::size_t rows, double cells);
 
 }  // namespace qchopper

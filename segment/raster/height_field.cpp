@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 
@@ -15,6 +14,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "segment/mesh/footprint.h"
+#include "segment/raster/cells_under.h"
+#include "segment/raster/shared_value.h"
 
 namespace qchopper {
 namespace {
@@ -51,45 +52,14 @@ struct MapTriangle {
     // Calls visit(column, row, height) for every cell of the map whose middle lies in the triangle.
     template <class Visit>
     void for_each_cell(const HeightField& map, const Visit& visit) const {
-        const double low = std::min({corner[0].y, corner[1].y, corner[2].y});
-        const double high = std::max({corner[0].y, corner[1].y, corner[2].y});
-        const std::size_t last_row = cells_before(high, map.rows);
-        for (std::size_t row = first_cell(low); row < last_row; ++row) {
+        for_each_row_under(corner, map.columns, map.rows, [&](std::size_t row, const CellSpan& covered) {
             const double y = static_cast<double>(row) + 0.5;
-            double from = std::numeric_limits<double>::infinity();
-            double to = -from;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3& a = corner[k];
-                const Vec3& b = corner[(k + 1) % 3];
-                if ((a.y <= y) == (b.y <= y)) continue;
-                const double x = a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
-                from = std::min(from, x);
-                to = std::max(to, x);
-            }
-            if (from > to) continue;
-            const std::size_t last = cells_before(to, map.columns);
-            for (std::size_t column = first_cell(from); column < last; ++column) {
+            for (std::size_t column = covered.first; column < covered.end; ++column) {
                 visit(column, row, height(static_cast<double>(column) + 0.5, y));
             }
-        }
-    }
-
- private:
-    // The first cell whose middle is not before a coordinate.
-    static std::size_t first_cell(double at) { return static_cast<std::size_t>(std::max(0.0, std::ceil(at - 0.5))); }
-    // The number of cells whose centres are not after it.
-    static std::size_t cells_before(double at, std::size_t count) {
-        return static_cast<std::size_t>(std::clamp(std::floor(at - 0.5) + 1, 0.0, static_cast<double>(count)));
+        });
     }
 };
-
-// Raises a cell to a height, whatever other threads do.
-void raise(float& cell, float to) {
-    const std::atomic_ref<float> shared(cell);
-    float before = shared.load(std::memory_order_relaxed);
-    while (before < to && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
-    }
-}
 
 // Rows of a ball-ended tool, in cells around its axis: how much lower than its surface the tip is.
 struct BallRow {
@@ -136,7 +106,7 @@ HeightField height_field(const TriangleMesh& mesh, Vec3 direction, double cell) 
     parallel_ranges(0, mesh.triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
             MapTriangle(mesh, t, map).for_each_cell(map, [&](std::size_t column, std::size_t row, float z) {
-                raise(map.height[row * map.columns + column], z);
+                raise_shared(map.height[row * map.columns + column], z);
             });
         }
     });
@@ -243,6 +213,17 @@ HeightField coarser(const HeightField& map, double factor) {
         for (std::size_t c = 0; c < map.columns; ++c) under[column_of[c]] = std::max(under[column_of[c]], own[c]);
     }
     return coarse;
+}
+
+void raise_to_coarser(HeightField& map, const HeightField& coarse, double factor) {
+    const auto index = [factor](std::size_t cell, std::size_t count) {
+        return std::min(static_cast<std::size_t>((static_cast<double>(cell) + 0.5) / factor), count - 1);
+    };
+    for (std::size_t row = 0; row < map.rows; ++row) {
+        const float* under = &coarse.height[index(row, coarse.rows) * coarse.columns];
+        float* own = &map.height[row * map.columns];
+        for (std::size_t c = 0; c < map.columns; ++c) own[c] = std::max(own[c], under[index(c, coarse.columns)]);
+    }
 }
 
 }  // namespace qchopper

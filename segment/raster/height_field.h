@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/pose.h"
@@ -26,8 +27,24 @@ struct HeightField {
     std::vector<float> height;  // row by row; `nothing` where no surface lies
 
     float at(std::size_t column, std::size_t row) const { return height[row * columns + column]; }
+    // The index of the cell that holds a place, in mm or in cells; none beside the map or where it is not a number.
+    std::optional<std::size_t> cell_under(double x, double y) const { return cell_holding(x / cell, y / cell); }
+    std::optional<std::size_t> cell_holding(double column, double row) const {
+        if (!(column >= 0 && row >= 0 && column < static_cast<double>(columns) && row < static_cast<double>(rows))) {
+            return std::nullopt;
+        }
+        return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+    }
+    // Its height; `nothing` beside the map.
+    float height_under(double x, double y) const {
+        const std::optional<std::size_t> index = cell_under(x, y);
+        return index ? height[*index] : nothing;
+    }
     Vec3 tool_axis() const { return piece_in_field.row[2]; }
 };
+
+// Some of the cells of a map: one byte each, row by row as HeightField::height; 0: not in it.
+using CellMask = std::vector<std::uint8_t>;
 
 constexpr std::size_t max_field_cells = std::size_t{1} << 28;
 
@@ -50,5 +67,9 @@ HeightField closed_by_ball(const HeightField& map, double radius);
 // The same surface on cells `factor` times as wide, each as high as the highest of those whose centres lie in it.
 // Precondition: factor >= 1.
 HeightField coarser(const HeightField& map, double factor);
+
+// Raises each cell of a map to the cell of a coarser one that holds its centre. Precondition: the coarse map has the
+// cells of coarser(map, factor).
+void raise_to_coarser(HeightField& map, const HeightField& coarse, double factor);
 
 }  // namespace qchopper

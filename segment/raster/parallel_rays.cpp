@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -27,6 +26,7 @@
 #include "segment/mesh/plane.h"
 #include "segment/mesh/plane_frame.h"
 #include "segment/mesh/polygon.h"
+#include "segment/raster/shared_value.h"
 
 namespace qchopper {
 namespace {
@@ -279,14 +279,6 @@ double side_if_shifted(const ProjectedPoint& a, const ProjectedPoint& b) {
     return a.v != b.v ? a.v - b.v : b.u - a.u;
 }
 
-// Sets a value to the lesser of both, whatever other threads do.
-void lower(double& value, double to) {
-    const std::atomic_ref<double> shared(value);
-    double before = shared.load(std::memory_order_relaxed);
-    while (to < before && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
-    }
-}
-
 // Updates the distances of the queries below a triangle that faces up, or above one that faces down.
 void update_distances(const RayGrid& grid, bool up, const Triangle& v, const ProjectedPoint (&corner)[3],
                       std::span<double> distances) {
@@ -315,7 +307,7 @@ void update_distances(const RayGrid& grid, bool up, const Triangle& v, const Pro
         if (sum <= 0) return;
         const double h = (weight[1] * corner[0].h + weight[2] * corner[1].h + weight[0] * corner[2].h) / sum;
         const double distance = sign * (h - p.at.h);
-        if (distance >= 0 && distance <= p.reach) lower(distances[p.query], distance);
+        if (distance >= 0 && distance <= p.reach) lower_shared(distances[p.query], distance);
     });
 }
 

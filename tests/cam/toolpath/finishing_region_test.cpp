@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
+#include "segment/raster/square_dilation.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -171,7 +172,7 @@ TEST(FinishingRegion, GrowsToTheLowestAround) {
         if (random() % 9 == 0) z = static_cast<float>(random() % 100);
     }
     for (const std::size_t by : {0U, 1U, 2U, 5U, 30U}) {
-        const FinishingRegion wide = dilated(region, 37, 23, by);
+        const FinishingRegion wide = erode_by_square(region, 37, 23, by);
         for (std::size_t row = 0; row < 23; ++row) {
             for (std::size_t column = 0; column < 37; ++column) {
                 float least = not_finished;

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "cam/setup/holder_clearance.h"
 #include "cam/stock/cl_surface.h"
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing_limit.h"
@@ -298,7 +299,7 @@ TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
     EXPECT_NEAR(length_of(parts.free) + length_of(parts.blocked), length_of(passes), 1e-6 * length_of(passes));
     for (const Pass& part : parts.free) {
         for (const PassPoint& point : part.points) {
-            EXPECT_LE(min_height(plate.space.holder_clearance_height, point.tip.x, point.tip.y), point.tip.z);
+            EXPECT_LE(plate.space.holder_clearance_height.height_under(point.tip.x, point.tip.y), point.tip.z);
         }
     }
 }
@@ -353,7 +354,7 @@ TEST(RaiseToLimit, NoLineBetweenNeighboursIsBelowTheLimit) {
             for (const Vec3 to : {at(c + 1, r), at(c, r + 1), at(c + 1, r + 1)}) {
                 for (const double t : {0.0, 0.2, 0.4, 0.499, 0.501, 0.7, 1.0}) {
                     const Vec3 p = at(c, r) + t * (to - at(c, r));
-                    ASSERT_GE(p.z + 1e-5, min_height(limit, p.x, p.y));
+                    ASSERT_GE(p.z + 1e-5, limit.height_under(p.x, p.y));
                 }
             }
         }
