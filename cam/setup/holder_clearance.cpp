@@ -1,5 +1,6 @@
 // Each step of holder and spindle is a disc under which the highest surface is found (segment/raster/disc_dilation.h).
-// O(cells x rows of the disc) of the wider cells, three further maps of them.
+// What is far from the axis is met on wider cells. O(steps x cells x rows of the disc) of the cells that a step is met
+// on, and up to four further maps of them.
 
 #include "cam/setup/holder_clearance.h"
 
@@ -7,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/parallel.h"
@@ -15,13 +17,18 @@
 namespace qchopper {
 namespace {
 
-// Raises `limit` to the highest surface within a radius, less `drop`.
-void dilate_to_disc(HeightField& limit, const HeightField& map, double radius, double drop) {
-    const HeightField highest = dilate_by_disc(map, radius);
-    const auto less = static_cast<float>(drop);
-    for (std::size_t i = 0; i < limit.height.size(); ++i) {
-        limit.height[i] = std::max(limit.height[i], highest.height[i] - less);
-    }
+constexpr double rounding = 1e-3;  // mm, of heights in single precision
+
+// The cells of a map, with nothing in them.
+HeightField without_heights(const HeightField& map) {
+    HeightField empty{map.piece_in_field, map.cell, map.columns, map.rows, {}};
+    empty.height.assign(map.height.size(), HeightField::nothing);
+    return empty;
+}
+
+double narrowest(const ToolBody& body) {
+    const auto is_narrower = [](const HolderStep& a, const HolderStep& b) { return a.diameter < b.diameter; };
+    return std::min_element(body.steps.begin(), body.steps.end(), is_narrower)->diameter;
 }
 
 // Where the tip may stand so that no step comes below z = 0 of the setup.
@@ -31,12 +38,7 @@ class FloorLimit {
         const Pose map_in_setup = piece_in_setup * inverse(map.piece_in_field);
         upright_ = map_in_setup.row[2];
         shift_ = map_in_setup.shift.z;
-        const double sine = std::hypot(upright_.x, upright_.y);
-        double above = tool.stick_out;
-        for (const HolderStep& step : tool.steps) {
-            min_z_ = std::max(min_z_, 0.5 * step.diameter * sine - above * upright_.z);
-            above += step.length;
-        }
+        min_z_ = min_tip_z(tool, std::hypot(upright_.x, upright_.y), upright_.z);
     }
 
     // At the centre of a cell.
@@ -51,7 +53,7 @@ class FloorLimit {
     double cell_;
     Vec3 upright_;  // z of the setup, in the map
     double shift_ = 0;
-    double min_z_ = std::numeric_limits<double>::lowest();  // of the tip, in the setup
+    double min_z_ = 0;  // of the tip, in the setup
 };
 
 }  // namespace
@@ -73,21 +75,26 @@ ToolBody tool_body(const CuttingTool& tool, const Spindle& spindle) {
     return body;
 }
 
+double min_tip_z(const ToolBody& tool, double sine, double cosine) {
+    double least = std::numeric_limits<double>::lowest();
+    double above = tool.stick_out;
+    for (const HolderStep& step : tool.steps) {
+        least = std::max(least, 0.5 * step.diameter * sine - above * cosine);
+        above += step.length;
+    }
+    return least;
+}
+
 bool raise_to_holder_clearance(HeightField& map, const ToolBody& tool, const Pose& piece_in_setup,
                                double cells_per_radius) {
     if (tool.steps.empty()) return false;
-    const double narrowest =
-        std::min_element(tool.steps.begin(), tool.steps.end(), [](const HolderStep& a, const HolderStep& b) {
-            return a.diameter < b.diameter;
-        })->diameter;
-    const double wanted = std::floor(0.5 * narrowest / cells_per_radius / map.cell);
+    const double wanted = std::floor(0.5 * narrowest(tool) / cells_per_radius / map.cell);
     const auto factor = static_cast<std::size_t>(std::max(2.0, wanted));
     const HeightField wide = coarser(map, static_cast<double>(factor));
-    HeightField limit = wide;
-    std::fill(limit.height.begin(), limit.height.end(), HeightField::nothing);
+    HeightField limit = without_heights(wide);
     double above = tool.stick_out;
     for (const HolderStep& step : tool.steps) {
-        dilate_to_disc(limit, wide, 0.5 * step.diameter, above);
+        raise_over_disc(limit, wide, 0.5 * step.diameter, above);
         above += step.length;
     }
     const FloorLimit floor(map, tool, piece_in_setup);
@@ -103,6 +110,56 @@ bool raise_to_holder_clearance(HeightField& map, const ToolBody& tool, const Pos
         }
     });
     return std::find(is_row_raised.begin(), is_row_raised.end(), 1) != is_row_raised.end();
+}
+
+bool raise_to_holder(HeightField& tip, const HeightField& target, const ToolBody& body, const Pose& piece_in_setup) {
+    assert(tip.columns == target.columns && tip.rows == target.rows);
+    if (body.steps.empty()) return false;
+    // Both the tip and the obstacle may lie anywhere in their cells, sqrt(2) of them farther apart or nearer. The cells
+    // are wider for the wider steps: (48 + 1.725) / 48 = 1.036, and 1.036 * sqrt(2) < 1.725.
+    constexpr double cells_per_radius = 48;
+    const double wide = std::max(2 * target.cell, 0.5 * narrowest(body) / cells_per_radius);
+    ToolBody grown = body;
+    for (HolderStep& step : grown.steps) step.diameter += 2 * 1.725 * wide;
+    HeightField limit = target;
+    raise_to_holder_clearance(limit, grown, piece_in_setup, cells_per_radius);
+    bool is_raised = false;
+    for (std::size_t i = 0; i < tip.height.size(); ++i) {
+        if (!(limit.height[i] > tip.height[i])) continue;
+        tip.height[i] = limit.height[i];
+        is_raised = true;
+    }
+    return is_raised;
+}
+
+HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body, const HolderGap& gap, double lowest) {
+    const float highest =
+        stock.height.empty() ? HeightField::nothing : *std::max_element(stock.height.begin(), stock.height.end());
+    HeightField limit = without_heights(stock);
+    HeightField wide;  // made when it is needed
+    HeightField wide_limit;
+    double above = body.stick_out;
+    for (const HolderStep& step : body.steps) {
+        const double up = above - gap.clearance;
+        above += step.length;
+        if (static_cast<double>(highest - static_cast<float>(up)) < lowest) continue;
+        const bool is_wide = gap.wide_cells > 1 && step.diameter > 80 * stock.cell;
+        if (is_wide && wide.height.empty()) {
+            wide = coarser(stock, gap.wide_cells);
+            wide_limit = without_heights(wide);
+        }
+        const HeightField& map = is_wide ? wide : stock;
+        // Foam may lie anywhere in its cell, and the tip in its own.
+        const double radius = 0.5 * step.diameter + gap.clearance + std::numbers::sqrt2 * map.cell;
+        raise_over_disc(is_wide ? wide_limit : limit, map, radius, up);
+    }
+    if (!wide.height.empty()) raise_to_coarser(limit, wide_limit, gap.wide_cells);
+    return limit;
+}
+
+bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest) {
+    // The first step is the lowest.
+    return !body.steps.empty() && highest - (body.stick_out - gap.clearance) >= lowest - rounding;
 }
 
 }  // namespace qchopper

@@ -247,26 +247,4 @@ HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool) {
     return remaining;
 }
 
-bool raise_to_holder(HeightField& tip, const HeightField& target, const ToolBody& body, const Pose& piece_in_setup) {
-    assert(tip.columns == target.columns && tip.rows == target.rows);
-    if (body.steps.empty()) return false;
-    double narrowest = body.steps.front().diameter;
-    for (const HolderStep& step : body.steps) narrowest = std::min(narrowest, step.diameter);
-    // Both the tip and the obstacle may lie anywhere in their cells, sqrt(2) of them farther apart or nearer. The cells
-    // are wider for the wider steps: (48 + 1.725) / 48 = 1.036, and 1.036 * sqrt(2) < 1.725.
-    constexpr double cells_per_radius = 48;
-    const double wide = std::max(2 * target.cell, 0.5 * narrowest / cells_per_radius);
-    ToolBody grown = body;
-    for (HolderStep& step : grown.steps) step.diameter += 2 * 1.725 * wide;
-    HeightField limit = target;
-    raise_to_holder_clearance(limit, grown, piece_in_setup, cells_per_radius);
-    bool is_raised = false;
-    for (std::size_t i = 0; i < tip.height.size(); ++i) {
-        if (!(limit.height[i] > tip.height[i])) continue;
-        tip.height[i] = limit.height[i];
-        is_raised = true;
-    }
-    return is_raised;
-}
-
 }  // namespace qchopper

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
-#include "cam/setup/holder_clearance.h"
 #include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/raster/height_field.h"
@@ -107,10 +106,5 @@ HeightField cl_surface(const HeightField& target, const CuttingTool& tool, const
 // CL surface by the tool): nothing that the tool reaches from this direction can be lower. Cells beside the map are
 // not visited. Cost as of cl_surface.
 HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool);
-
-// Raises a CL surface to where holder and spindle stay clear of the target and above z = 0 of the setup as well; on
-// the safe side by at most three cells of raise_to_holder_clearance(), which are at most a 48th of the holder's least
-// radius wide, or two cells of the map. Whether it was raised anywhere. Precondition: both maps have the same cells.
-bool raise_to_holder(HeightField& tip, const HeightField& target, const ToolBody& body, const Pose& piece_in_setup);
 
 }  // namespace qchopper

@@ -118,7 +118,8 @@ class HolePlanner {
         return top;
     }
 
-    // With the tip as deep as it goes; higher up the same room is needed and less.
+    // With the tip as deep as it goes; higher up the same room is needed and less. Not by holder_clearance.h: no map
+    // has the axis of the hole.
     bool is_holder_in_stock(const DrillHole& hole, const CuttingTool& tool, double deep) const {
         const ToolBody body = tool_body(tool, machine_.spindle);
         const double highest = height_of_retract(hole);

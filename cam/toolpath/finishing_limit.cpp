@@ -1,4 +1,4 @@
-// The highest foam under discs (disc_dilation.h), the holder's limit as for passes (toolpath_linker.h). A cell of a CL
+// The highest foam under discs (disc_dilation.h), the holder's limit as for passes (holder_clearance.h). A cell of a CL
 // surface takes the highest limit between the middles of its neighbours: cells of limits are not narrower, so that nine
 // places tell.
 
@@ -41,11 +41,7 @@ HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool&
     HeightField limit = holder_clearance_over(centre_stock, body, gap);
     // The tip may lie anywhere in its cell.
     const double under = std::max(0.0, 0.5 * tool.diameter - flute_rim) + half_diagonal * centre_stock.cell;
-    const HeightField highest = dilate_by_disc(centre_stock, under);
-    const auto flute = static_cast<float>(tool.flute_length);
-    for (std::size_t i = 0; i < limit.height.size(); ++i) {
-        limit.height[i] = std::max(limit.height[i], highest.height[i] - flute);
-    }
+    raise_over_disc(limit, centre_stock, under, tool.flute_length);
     return limit;
 }
 
@@ -57,8 +53,9 @@ void raise_to_limit(HeightField& tip, const HeightField& limit) {
             double least = tip.at(column, row);
             for (const double down : places) {
                 for (const double along : places) {
-                    least = std::max(least, min_height(limit, tip.cell * (static_cast<double>(column) + along),
-                                                       tip.cell * (static_cast<double>(row) + down)));
+                    const float other = limit.height_under(tip.cell * (static_cast<double>(column) + along),
+                                                           tip.cell * (static_cast<double>(row) + down));
+                    least = std::max(least, static_cast<double>(other));
                 }
             }
             tip.height[row * tip.columns + column] = static_cast<float>(least);

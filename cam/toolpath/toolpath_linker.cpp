@@ -23,7 +23,6 @@ constexpr std::size_t max_moves = 900;                       // a run ends in th
 constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
 constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
-constexpr double rounding = 1e-3;                            // mm, of heights in single precision
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
 
 Vec3 raised(Vec3 point, double z) {
@@ -45,53 +44,10 @@ std::vector<Vec3> beginning_of(const Pass& pass, double length) {
 
 }  // namespace
 
-double min_height(const HeightField& map, double x, double y) {
-    const double column = std::floor(x / map.cell);
-    const double row = std::floor(y / map.cell);
-    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
-        return -std::numeric_limits<double>::infinity();
-    }
-    return static_cast<double>(map.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)));
-}
-
 double length_of(const Pass& pass) {
     double length = 0;
     for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
     return length;
-}
-
-HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body, const HolderGap& gap, double lowest) {
-    HeightField limit{stock.piece_in_field, stock.cell, stock.columns, stock.rows, {}};
-    limit.height.assign(stock.height.size(), HeightField::nothing);
-    const float highest =
-        stock.height.empty() ? HeightField::nothing : *std::max_element(stock.height.begin(), stock.height.end());
-    double above = body.stick_out;
-    for (const HolderStep& step : body.steps) {
-        const auto drop = static_cast<float>(above - gap.clearance);
-        above += step.length;
-        if (static_cast<double>(highest - drop) < lowest) continue;
-        // Foam may lie anywhere in its cell, and the tip in its own.
-        const double factor = step.diameter > 80 * stock.cell ? gap.wide_cells : 1;
-        const HeightField wide = factor > 1 ? coarser(stock, factor) : stock;
-        const double radius = 0.5 * step.diameter + gap.clearance + 2 * half_diagonal * wide.cell;
-        const HeightField top = dilate_by_disc(wide, radius);
-        for (std::size_t row = 0; row < limit.rows; ++row) {
-            const std::size_t under =
-                std::min(static_cast<std::size_t>((static_cast<double>(row) + 0.5) / factor), top.rows - 1);
-            for (std::size_t c = 0; c < limit.columns; ++c) {
-                const std::size_t at =
-                    std::min(static_cast<std::size_t>((static_cast<double>(c) + 0.5) / factor), top.columns - 1);
-                float& own = limit.height[row * limit.columns + c];
-                own = std::max(own, top.at(at, under) - drop);
-            }
-        }
-    }
-    return limit;
-}
-
-bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest) {
-    // The first step is the lowest.
-    return !body.steps.empty() && highest - (body.stick_out - gap.clearance) >= lowest - rounding;
 }
 
 // What is on a straight line from the tip to another place.
@@ -131,7 +87,7 @@ double ToolpathLinker::over_flute(Vec3 at) const {
 
 // Across an edge the limit between the centres of cells is no straight line: there the tool tells.
 double ToolpathLinker::limit_at(Vec3 p) const {
-    if (!space_->is_limit_between) return min_height(*space_->cl_limit, p.x, p.y);
+    if (!space_->is_limit_between) return static_cast<double>(space_->cl_limit->height_under(p.x, p.y));
     const HeightField& tip = *space_->cl_limit;
     const BilinearCell around(tip, p.x, p.y);
     const double limit = around.height(tip);
@@ -157,7 +113,7 @@ double ToolpathLinker::limit_spacing() const {
 }
 
 double ToolpathLinker::holder_at(double x, double y) const {
-    return min_height(space_->holder_clearance_height, x, y);
+    return static_cast<double>(space_->holder_clearance_height.height_under(x, y));
 }
 
 bool ToolpathLinker::needs_ramp(Vec3 at) const {

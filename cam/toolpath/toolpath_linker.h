@@ -12,11 +12,9 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
-#include "cam/setup/holder_clearance.h"
 #include "cam/stock/cl_surface.h"
 #include "cam/stock/in_process_stock.h"
 #include "cam/toolpath/pass.h"
@@ -41,27 +39,10 @@ struct MillingSpace {
     double retract = 0;                     // height of the retract plane
 };
 
-// The height of the cell of a map under a point; -infinity beside the map.
-double min_height(const HeightField& map, double x, double y);
-
 double length_of(const Pass& pass);
 
 // Within so much of its rim, a tool may graze foam that is higher than its flute: no centre of a cell may lie there.
 constexpr double flute_rim = 0.25;  // mm
-
-// How near to foam holder and spindle come, and how exactly that is known.
-struct HolderGap {
-    double clearance = 0.3;  // mm
-    double wide_cells = 1;   // cells of the foam, each way, that are taken as one for wide steps of the holder
-};
-
-// The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map. For tips that
-// are never below `lowest`: limits below it may be lower than they are. O(cells * widest radius / cell) at most.
-HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body, const HolderGap& gap = {},
-                                  double lowest = -std::numeric_limits<double>::infinity());
-
-// Whether any of these limits over foam that is nowhere higher than `highest` can be as high as `lowest`.
-bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest);
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing

@@ -58,12 +58,7 @@ ClHeights cl_heights(const Box& block, const ToolBody& tool, Vec3 tool_axis, dou
     ClHeights heights{tool_axis, -std::numeric_limits<double>::infinity(), 0};
     for (int i = 0; i < 8; ++i)
         heights.retract = std::max(heights.retract, dot(tool_axis, corner_of(block, i)) + clearance);
-    double above = tool.stick_out;
-    for (const HolderStep& step : tool.steps) {
-        const double sine = std::hypot(tool_axis.x, tool_axis.y);
-        heights.min_z = std::max(heights.min_z, 0.5 * step.diameter * sine - above * tool_axis.z);
-        above += step.length;
-    }
+    heights.min_z = std::max(0.0, min_tip_z(tool, std::hypot(tool_axis.x, tool_axis.y), tool_axis.z));
     return heights;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "cam/setup/holder_clearance.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
