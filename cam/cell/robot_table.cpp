@@ -69,13 +69,6 @@ AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
     return {range[0] * degree, range[1] * degree};
 }
 
-// An interval of two numbers, the first below the second.
-AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
-    const std::vector<double> range = reader.numbers(key, 2, -max_turns, max_turns);
-    if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
-    return {range[0] * degree, range[1] * degree};
-}
-
 CableLimits read_cable(const TomlReader& reader, const JointRanges& ranges) {
     const CableLimits cable{read_angle_range(reader, "axis_4_deg"), read_angle_range(reader, "axis_6_deg")};
     const JointRanges both = ranges_with_cable(ranges, cable);

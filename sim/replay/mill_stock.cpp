@@ -57,7 +57,8 @@ double lowest_of_tool(const CuttingTool& tool, Vec3 tip, Vec3 tool_axis) {
     const Cutter cutter = cutter_of(tool);
     const double sine = std::sqrt(std::max(0.0, 1 - tool_axis.z * tool_axis.z));
     if (cutter.sin_half > 0) {
-        return tip.z + std::min(0.0, profile_height(cutter, cutter.radius) * tool_axis.z - cutter.radius * sine);
+        const double of_tip = cutter.corner * (tool_axis.z - 1);
+        return tip.z + std::min(of_tip, profile_height(cutter, cutter.radius) * tool_axis.z - cutter.radius * sine);
     }
     return tip.z + cutter.corner * tool_axis.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
 }
