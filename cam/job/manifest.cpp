@@ -208,7 +208,7 @@ void fields(V& v, T& job) {
     });
     v.converted("programs", job.program, to_list, to_program);
     v("no_program_because", job.no_program_because);
-    v.check(job.program.has_value() != job.no_program_because.empty(), "no_program_because",
+    v.check(job.program.has_value() == job.no_program_because.empty(), "no_program_because",
             "contradicts the programs");
     v("warnings", job.warnings);
     v("files", job.entries);
