@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/text.h"
+#include "segment/picture/lettering.h"
 
 namespace qchopper {
 namespace {

@@ -53,7 +53,7 @@ FREE_OF_CGAL = ["devices", "sim"]
 
 # Heavy headers: included by sources only, and by no more of them than this.
 HEAVY = {
-    "CGAL": (r"CGAL/", 7),
+    "CGAL": (r"CGAL/", 5),
     "OpenMesh": (r"OpenMesh/", 2),
     "Eigen": (r"Eigen/", 3),
     "Embree": (r"embree3/", 1),

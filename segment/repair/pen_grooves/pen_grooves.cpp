@@ -1,18 +1,25 @@
 // Every point is compared with a robust fit of the surface around it (surface_fit.h), which a narrow line does not pull
-// down. Points that lie too deep are grouped to lines (grooves.h). A second fit without the points of the lines gives
-// the positions to which they are lifted. The cost is one fit per point, on all cores, and O(n log n) for the rest.
+// down. Points that lie too deep are grouped along edges; a group is measured by the distance of its points from its
+// rim (E. Dijkstra, "A note on two problems in connexion with graphs", 1959), and those that are long and nowhere wide
+// are grooves. A second fit without the points of the lines gives the positions to which they are lifted. The cost is
+// one fit per point, on all cores, and O(n log n) for the rest.
 
 #include "segment/repair/pen_grooves/pen_grooves.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
 #include "segment/mesh/normals.h"
-#include "segment/repair/pen_grooves/grooves.h"
+#include "segment/mesh/triangle_mesh.h"
 #include "segment/repair/pen_grooves/surface_fit.h"
 
 namespace qchopper {
@@ -27,6 +34,141 @@ constexpr double mean_in_roughness = 5.7;  // mean depth of a whole pen groove
 constexpr double min_known = 0.9;          // share of its points with good fits
 constexpr double max_growth = 1.2;         // of its depth: between crests of the bone it grows with the reach
 constexpr double min_depth_mm = 0.02;
+
+enum class GrooveKind : std::uint8_t {
+    none,
+    flank,  // belongs to a groove if it is connected to a seed
+    seed
+};
+
+struct Groove {
+    std::vector<std::uint32_t> points;  // ascending
+    double area_mm2 = 0;
+    double width = 0;   // mean
+    double length = 0;  // area over width: of all branches together
+    double depth = 0;   // of the deepest point
+};
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Neighbours of every point along edges, in one array; each is listed once per triangle of the edge.
+struct Neighbours {
+    std::vector<std::uint32_t> first;  // per point where its neighbours begin in `all`; one more at the end
+    std::vector<std::uint32_t> all;
+
+    explicit Neighbours(const TriangleMesh& mesh) : first(mesh.points.size() + 1, 0) {
+        for (const Triangle& t : mesh.triangles) {
+            for (const std::uint32_t corner : t) first[corner + 1] += 2;
+        }
+        for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+        all.resize(first.back());
+        std::vector<std::uint32_t> filled(first.begin(), first.end() - 1);
+        for (const Triangle& t : mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                all[filled[t[k]]++] = t[(k + 1) % 3];
+                all[filled[t[k]]++] = t[(k + 2) % 3];
+            }
+        }
+    }
+};
+
+// Per point of a groove the length of the shortest way along edges out of it: to the middle of an edge that leaves it.
+std::vector<double> distances_out(const TriangleMesh& mesh, const Neighbours& next,
+                                  const std::vector<std::uint8_t>& is_in) {
+    std::vector<double> way(mesh.points.size(), 0);
+    using Open = std::pair<double, std::uint32_t>;
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    for (std::uint32_t i = 0; i < way.size(); ++i) {
+        if (is_in[i] == 0) continue;
+        way[i] = infinite;
+        for (std::uint32_t k = next.first[i]; k < next.first[i + 1]; ++k) {
+            const Vec3 across = mesh.points[i] - mesh.points[next.all[k]];
+            if (is_in[next.all[k]] == 0) way[i] = std::min(way[i], 0.5 * norm(across));
+        }
+        if (way[i] < infinite) open.push({way[i], i});
+    }
+    while (!open.empty()) {
+        const auto [so_far, i] = open.top();
+        open.pop();
+        if (so_far > way[i]) continue;
+        for (std::uint32_t k = next.first[i]; k < next.first[i + 1]; ++k) {
+            const std::uint32_t j = next.all[k];
+            const double longer = so_far + norm(mesh.points[j] - mesh.points[i]);
+            if (is_in[j] == 0 || longer >= way[j]) continue;
+            way[j] = longer;
+            open.push({longer, j});
+        }
+    }
+    return way;
+}
+
+// Per point a third of the area of its triangles.
+std::vector<double> areas_of(const TriangleMesh& mesh) {
+    std::vector<double> areas(mesh.points.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const double third = norm(area_vector(mesh, t)) / 3;
+        for (const std::uint32_t corner : mesh.triangles[t]) areas[corner] += third;
+    }
+    return areas;
+}
+
+// Connected groups of points that have a seed, in the order of their first points.
+std::vector<Groove> groups(const Neighbours& next, const std::vector<GrooveKind>& kinds) {
+    DisjointSets sets(kinds.size());
+    for (std::uint32_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == GrooveKind::none) continue;
+        for (std::uint32_t k = next.first[i]; k < next.first[i + 1]; ++k) {
+            if (kinds[next.all[k]] != GrooveKind::none) sets.unite(i, next.all[k]);
+        }
+    }
+    std::vector<std::uint8_t> has_seed(kinds.size(), 0);
+    for (std::uint32_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == GrooveKind::seed) has_seed[sets.root(i)] = 1;
+    }
+    std::vector<Groove> grooves;
+    std::vector<std::uint32_t> number(kinds.size(), 0);
+    for (std::uint32_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == GrooveKind::none || has_seed[sets.root(i)] == 0) continue;
+        if (sets.root(i) == i) {
+            number[i] = static_cast<std::uint32_t>(grooves.size());
+            grooves.emplace_back();
+        }
+        grooves[number[sets.root(i)]].points.push_back(i);
+    }
+    return grooves;
+}
+
+bool is_line(const Groove& groove, const PenGrooveOptions& o) {
+    constexpr double min_slenderness = 4;
+    const double min_length = o.min_length > 0 ? o.min_length : 3 * o.max_width;
+    return groove.depth <= o.max_depth && groove.width <= o.max_width && groove.length >= min_length &&
+           groove.length >= min_slenderness * groove.width;
+}
+
+// The grooves within the options' limits, in the order of their first points. `kinds` and `fits`: one per point of the
+// mesh.
+std::vector<Groove> line_like_grooves(const TriangleMesh& mesh, const std::vector<GrooveKind>& kinds,
+                                      const std::vector<SurfaceFit>& fits, const PenGrooveOptions& options) {
+    const Neighbours next(mesh);
+    const std::vector<double> areas = areas_of(mesh);
+    std::vector<std::uint8_t> is_in(kinds.size(), 0);
+    for (std::size_t i = 0; i < kinds.size(); ++i) is_in[i] = kinds[i] != GrooveKind::none ? 1 : 0;
+    const std::vector<double> way = distances_out(mesh, next, is_in);
+    std::vector<Groove> grooves = groups(next, kinds);
+    for (Groove& groove : grooves) {
+        double weighted = 0;
+        for (const std::uint32_t i : groove.points) {
+            groove.area_mm2 += areas[i];
+            weighted += areas[i] * way[i];
+            groove.depth = std::max(groove.depth, fits[i].depth);
+        }
+        // The mean distance from the rim of a strip is a quarter of its width.
+        groove.width = groove.area_mm2 > 0 ? 4 * weighted / groove.area_mm2 : 0;
+        groove.length = groove.width > 0 ? groove.area_mm2 / groove.width : 0;
+    }
+    std::erase_if(grooves, [&](const Groove& groove) { return !is_line(groove, options); });
+    return grooves;
+}
 
 void check(const PenGrooveOptions& o) {
     const auto is_length = [](double mm) { return std::isfinite(mm) && mm >= 0; };
@@ -109,14 +251,6 @@ bool is_distinct(const Groove& groove, const NearAndFarFits& fits, double max_de
            deepest <= max_depth;
 }
 
-GrooveLimits limits_of(const PenGrooveOptions& o) {
-    GrooveLimits limits;
-    limits.max_width = o.max_width;
-    limits.max_depth = o.max_depth;
-    limits.min_length = o.min_length > 0 ? o.min_length : 3 * o.max_width;
-    return limits;
-}
-
 // Seeds are deep compared with the roughness there; flanks only lie below the surface.
 std::vector<GrooveKind> kinds_of(const std::vector<SurfaceFit>& fits, const PenGrooveOptions& o) {
     std::vector<GrooveKind> kinds(fits.size(), GrooveKind::none);
@@ -132,13 +266,6 @@ std::vector<GrooveKind> kinds_of(const std::vector<SurfaceFit>& fits, const PenG
         }
     }
     return kinds;
-}
-
-std::vector<double> depths_of(const std::vector<SurfaceFit>& fits) {
-    std::vector<double> depths;
-    depths.reserve(fits.size());
-    for (const SurfaceFit& fit : fits) depths.push_back(fit.depth);
-    return depths;
 }
 
 void lift(TriangleMesh& mesh, const std::vector<Groove>& grooves, const std::vector<SurfaceFit>& fits,
@@ -184,8 +311,7 @@ PenGrooveReport smooth_pen_grooves(TriangleMesh& mesh, const PenGrooveOptions& o
     context.progress("surface fits for pen grooves", 0, 2);
     const std::vector<SurfaceFit> first = fits(near, mesh.points.size(), context);
     context.progress("surface fits for pen grooves", 1, 2);
-    std::vector<Groove> grooves =
-        line_like_grooves(mesh, kinds_of(first, options), depths_of(first), limits_of(options));
+    std::vector<Groove> grooves = line_like_grooves(mesh, kinds_of(first, options), first, options);
     std::vector<std::uint8_t> is_in_groove(mesh.points.size(), 0);
     for (const Groove& groove : grooves) {
         for (const std::uint32_t i : groove.points) is_in_groove[i] = 1;

@@ -1,4 +1,5 @@
 #include "segment/picture/plot.h"
+#include "base/text.h"
 
 #include <gtest/gtest.h>
 
