@@ -14,6 +14,7 @@
 #include "segment/access/cut_access.h"
 #include "segment/access/dense_access.h"
 #include "segment/cut/nudge.h"
+#include "segment/objectives/sweep/prepared.h"
 #include "segment/search/best_first.h"
 #include "segment/search/candidates/size_candidates.h"
 #include "segment/search/further_candidates.h"

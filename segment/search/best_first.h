@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "segment/search/candidates/evaluated_plane.h"
 #include "segment/search/rank.h"
 
 namespace qchopper {

@@ -12,6 +12,7 @@
 #include "base/shared_progress.h"
 #include "base/timings.h"
 #include "segment/access/sampled_piece.h"
+#include "segment/search/candidates/evaluate.h"
 
 namespace qchopper {
 

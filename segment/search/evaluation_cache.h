@@ -20,7 +20,7 @@
 #include "base/context.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/objectives/objectives.h"
-#include "segment/search/candidates/evaluate.h"
+#include "segment/search/candidates/evaluated_plane.h"
 #include "segment/search/segmentation.h"
 
 namespace qchopper {

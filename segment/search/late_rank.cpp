@@ -18,12 +18,23 @@
 #include "base/timings.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
+#include "segment/objectives/sweep/prepared.h"
 #include "segment/search/best_first.h"
+#include "segment/search/candidates/evaluate.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t normals_at_once = 8;
+
+std::vector<PlanesOfNormal> by_normal(std::span<const Candidate> candidates) {
+    std::vector<PlanesOfNormal> planes;
+    for (const auto& [first, last] : groups_of(candidates)) {
+        PlanesOfNormal& of_normal = planes.emplace_back();
+        for (std::size_t i = first; i < last; ++i) of_normal.push_back({.candidate = candidates[i]});
+    }
+    return planes;
+}
 
 class LateRanking {
  public:

@@ -16,23 +16,6 @@
 namespace qchopper {
 namespace {
 
-// Candidates [first, last) share a normal; their offsets ascend.
-struct Group {
-    std::size_t first;
-    std::size_t last;
-};
-
-std::vector<Group> groups_of(std::span<const Candidate> candidates) {
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const bool continues = i > 0 && candidates[i].plane.normal == candidates[i - 1].plane.normal &&
-                               candidates[i].plane.offset > candidates[i - 1].plane.offset;
-        if (!continues) groups.push_back({i, i});
-        groups.back().last = i + 1;
-    }
-    return groups;
-}
-
 // The caps that the piece owns, ascending.
 std::vector<BaseShare> bases_of(const TriangleMesh& mesh) {
     std::set<std::int32_t> cuts;
@@ -53,6 +36,17 @@ const HalfSpace* half_space_of(const Piece& piece, std::int32_t cut) {
 
 }  // namespace
 
+std::vector<CandidateGroup> groups_of(std::span<const Candidate> candidates) {
+    std::vector<CandidateGroup> groups;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const bool continues = i > 0 && candidates[i].plane.normal == candidates[i - 1].plane.normal &&
+                               candidates[i].plane.offset > candidates[i - 1].plane.offset;
+        if (!continues) groups.push_back({i, i});
+        groups.back().last = i + 1;
+    }
+    return groups;
+}
+
 std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
                                                        const Objectives& objectives, const Context& context,
                                                        const std::array<Vec3, 3>* box_axes) {
@@ -61,7 +55,7 @@ std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::
     const PreparedPiece prepared = prepare(piece, objectives, box_axes);
     std::mutex reporting;
     std::size_t done = 0;
-    const std::vector<Group> groups = groups_of(candidates);
+    const std::vector<CandidateGroup> groups = groups_of(candidates);
     parallel_for(0, groups.size(), [&](std::size_t g) {
         context.check_cancelled();
         const auto [first, last] = groups[g];
@@ -103,46 +97,6 @@ SolidEvaluation measure(const Piece& piece) {
         }
     }
     return solid;
-}
-
-std::vector<PlanesOfNormal> by_normal(std::span<const Candidate> candidates) {
-    std::vector<PlanesOfNormal> planes;
-    for (const auto& [first, last] : groups_of(candidates)) {
-        PlanesOfNormal& of_normal = planes.emplace_back();
-        for (std::size_t i = first; i < last; ++i) of_normal.push_back({.candidate = candidates[i]});
-    }
-    return planes;
-}
-
-std::size_t count_evaluated(std::span<const PlanesOfNormal> planes, TermStage stage) {
-    std::ptrdiff_t count = 0;
-    for (const PlanesOfNormal& of_normal : planes) {
-        count += std::count_if(of_normal.begin(), of_normal.end(),
-                               [stage](const EvaluatedPlane& plane) { return plane.stage >= stage; });
-    }
-    return static_cast<std::size_t>(count);
-}
-
-void evaluate(std::span<EvaluatedPlane* const> planes, TermStage to, const PreparedPiece& prepared,
-              const Objectives& objectives) {
-    if (planes.empty()) return;
-    const Vec3 normal = planes.front()->candidate.plane.normal;
-    const TermStage from = planes.front()->stage;
-    std::vector<double> offsets;
-    std::vector<std::optional<CutEvaluation>> evaluations;
-    for (EvaluatedPlane* plane : planes) {
-        offsets.push_back(plane->candidate.plane.offset);
-        evaluations.push_back(std::move(plane->evaluation));
-    }
-    if (from < TermStage::solids) evaluations = sweep_solids(prepared, normal, offsets);
-    if (from < TermStage::fragility && to >= TermStage::fragility) {
-        add_fragility(prepared, normal, offsets, objectives, evaluations);
-    }
-    if (to == TermStage::whole) add_section_terms(prepared, normal, offsets, objectives, evaluations);
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        planes[i]->evaluation = std::move(evaluations[i]);
-        planes[i]->stage = to;
-    }
 }
 
 }  // namespace qchopper

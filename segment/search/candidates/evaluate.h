@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "segment/cut/cut_evaluation.h"
 #include "segment/cut/piece.h"
 #include "segment/objectives/objectives.h"
-#include "segment/objectives/sweep/prepared.h"
 #include "segment/search/candidates/candidates.h"
 
 namespace qchopper {
@@ -28,35 +26,15 @@ std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::
                                                        const Objectives& objectives, const Context& context,
                                                        const std::array<Vec3, 3>* box_axes = nullptr);
 
+// Candidates [first, last) share a normal; their offsets ascend.
+struct CandidateGroup {
+    std::size_t first;
+    std::size_t last;
+};
+// All of the candidates, in their order.
+std::vector<CandidateGroup> groups_of(std::span<const Candidate> candidates);
+
 // The values of a piece that is not cut (tests/segment/objectives/sweep/reference_test.cpp). O(triangles * caps).
 SolidEvaluation measure(const Piece& piece);
-
-// --- One normal, in stages: the cheap terms first, so that the slow ones can wait until a plane may still be among the
-// best (best_first.h).
-
-// Each stage holds the terms of those before it. Those that are not evaluated are 0, and no term is negative.
-enum class TermStage : std::uint8_t { none, solids, fragility, whole };
-
-struct EvaluatedPlane {
-    Candidate candidate;
-    TermStage stage = TermStage::none;
-    std::optional<CutEvaluation> evaluation = {};  // nothing from `solids` on: the plane misses
-    bool is_really_cut = false;                    // its inaccessible area is that of the pieces that it really makes
-};
-
-// Planes of one normal, their offsets ascending.
-using PlanesOfNormal = std::vector<EvaluatedPlane>;
-
-// Candidates that follow each other as for evaluate_all, nothing evaluated.
-std::vector<PlanesOfNormal> by_normal(std::span<const Candidate> candidates);
-
-// How many planes are evaluated at least up to a stage.
-std::size_t count_evaluated(std::span<const PlanesOfNormal> planes, TermStage stage);
-
-// Evaluates planes of one normal up to a stage, in one sweep per stage (sweep.h). Preconditions: all are at the same
-// stage, below `to`; their offsets ascend and are nudged; where they have their solids, no plane misses; `prepared` is
-// made with the same objectives.
-void evaluate(std::span<EvaluatedPlane* const> planes, TermStage to, const PreparedPiece& prepared,
-              const Objectives& objectives);
 
 }  // namespace qchopper
