@@ -148,7 +148,7 @@ void measure_sweep(const Measured& measured, const SampledScan& scan, Figures& f
             double sum = 0;
             for (const Candidates& c : all) {
                 for (const PlaneAccess& plane : sweep.sweep(c.normal, c.offsets)) {
-                    sum += min_unreachable_mm2(plane.above) + min_unreachable_mm2(plane.below);
+                    sum += best_base(plane.above).unreachable_mm2 + best_base(plane.below).unreachable_mm2;
                 }
             }
             return sum;

@@ -39,8 +39,9 @@ struct PlaneAccess {
     std::vector<SideOnBase> below;
 };
 
-// The least over the bases that carry the side; over all if none carries it. Precondition: there is one.
-double min_unreachable_mm2(std::span<const SideOnBase> bases);
+// The base with the least area of those that carry the side, of all if none carries it; the first of several.
+// Precondition: there is one.
+const SideOnBase& best_base(std::span<const SideOnBase> bases);
 
 // What all normals share: the directions that are open at each sample, the allowed ones of every base.
 class AccessSweep {

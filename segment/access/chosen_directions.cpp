@@ -12,29 +12,15 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "segment/access/row_set.h"
 #include "segment/access/up_column.h"
 
 namespace qchopper {
 namespace {
 
-using Word = std::uint64_t;
-constexpr std::size_t word_bits = 64;
 constexpr std::size_t words_at_once = 4;
 constexpr std::size_t rows_at_once = 16;
 constexpr float open = std::numeric_limits<float>::infinity();
-
-std::size_t words_for(std::size_t bits) {
-    return (bits + word_bits - 1) / word_bits;
-}
-bool has_bit(std::span<const Word> bits, std::size_t i) {
-    return (bits[i / word_bits] >> (i % word_bits) & 1) != 0;
-}
-void set_bit(std::span<Word> bits, std::size_t i) {
-    bits[i / word_bits] |= Word{1} << (i % word_bits);
-}
-void add_bits(std::span<Word> bits, std::span<const Word> others) {
-    for (std::size_t w = 0; w < bits.size(); ++w) bits[w] |= others[w];
-}
 
 bool is_steep(Vec3 normal, std::span<const Vec3> directions) {
     return std::any_of(directions.begin(), directions.end(),

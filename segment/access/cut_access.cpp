@@ -7,10 +7,10 @@
 
 namespace qchopper {
 
-std::vector<TiltBase> cap_bases(const Piece& piece) {
+AccessSweep access_sweep(const Piece& piece, double tilt_deg) {
     std::vector<TiltBase> bases;
     for (const OwnedCap& cap : piece.samples->caps) bases.push_back({-cap.outward, cap.cut});
-    return bases;
+    return {piece, piece.samples->judged(), bases, tilt_deg};
 }
 
 double scan_area_mm2(const Piece& piece) {
@@ -19,7 +19,7 @@ double scan_area_mm2(const Piece& piece) {
 }
 
 double unreachable_mm2(const PlaneAccess& plane) {
-    return min_unreachable_mm2(plane.above) + min_unreachable_mm2(plane.below);
+    return best_base(plane.above).unreachable_mm2 + best_base(plane.below).unreachable_mm2;
 }
 
 CutAccess cut_access(const Piece& piece, const Plane& plane, double tilt_deg) {
@@ -39,10 +39,8 @@ std::optional<double> unreachable_when_cut_mm2(const Piece& piece, const Plane& 
 }
 
 std::vector<CutAccess> cut_access(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg) {
-    const JudgedPiece judged = piece.samples->judged();
-    const AccessSweep sweep(piece, judged, cap_bases(piece), tilt_deg);
     std::vector<CutAccess> access;
-    for (const PlaneAccess& plane : sweep.sweep(normal, offsets)) {
+    for (const PlaneAccess& plane : access_sweep(piece, tilt_deg).sweep(normal, offsets)) {
         access.push_back({unreachable_mm2(plane), scan_area_mm2(piece)});
     }
     return access;

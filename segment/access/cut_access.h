@@ -15,8 +15,9 @@
 
 namespace qchopper {
 
-// The caps of a piece, also those too small to carry it: they may carry a part of it.
-std::vector<TiltBase> cap_bases(const Piece& piece);
+// The sweep of a piece on all its caps, also those too small to carry it: they may carry a part of it. The piece must
+// outlive it.
+AccessSweep access_sweep(const Piece& piece, double tilt_deg);
 
 // The area of the uncut scan, all its pieces together.
 double scan_area_mm2(const Piece& piece);

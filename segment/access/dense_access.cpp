@@ -20,16 +20,6 @@ constexpr std::size_t max_asked = 1'000;
 constexpr std::size_t rows_at_once = 16;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-// The base of which the side's area is the least, as min_unreachable_mm2 chooses.
-const SideOnBase& best_base(std::span<const SideOnBase> bases) {
-    const double least = min_unreachable_mm2(bases);
-    const bool one_is_stable =
-        std::any_of(bases.begin(), bases.end(), [](const SideOnBase& b) { return b.is_stable(); });
-    return *std::find_if(bases.begin(), bases.end(), [&](const SideOnBase& b) {
-        return b.unreachable_mm2 == least && (b.is_stable() || !one_is_stable);
-    });
-}
-
 // One side of a plane on one base.
 struct Side {
     Plane plane;
@@ -50,7 +40,7 @@ struct DenseAccess::Asked {
         : piece(of),
           tilt_deg(tilt),
           judged(of.samples->judged()),
-          sweep(of, judged, cap_bases(of), tilt),
+          sweep(access_sweep(of, tilt)),
           rays(judged.scan, judged.accessibility),
           dense(dense_directions()),
           stride((judged.accessibility.sample.size() + max_asked - 1) / max_asked),

@@ -1,4 +1,4 @@
-// Which samples of a piece are open along the up direction of a base.
+// How far samples of a piece are open along the up direction of a base.
 //
 // The scan's table has it if up is one of its directions; otherwise rays are cast for it, one per sample, in parallel.
 
@@ -20,10 +20,11 @@ class UpColumn {
         : accessibility_(accessibility), direction_(index_of(scan.directions, up)) {
         if (direction_ == scan.directions.size()) cast_ = PieceRays(scan, accessibility).distances(up);
     }
-    // `row` is an index of PieceAccessibility::sample.
-    bool is_open(std::size_t row) const {
-        return cast_.empty() ? accessibility_.is_open(row, direction_) : std::isinf(cast_[row]);
+    // As PieceAccessibility::distance. `row` is an index of PieceAccessibility::sample.
+    float distance(std::size_t row) const {
+        return cast_.empty() ? accessibility_.distances(row)[direction_] : cast_[row];
     }
+    bool is_open(std::size_t row) const { return std::isinf(distance(row)); }
 
  private:
     const PieceAccessibility& accessibility_;

@@ -44,8 +44,7 @@ AccessEvaluations swept(const Piece& piece, const OrientedBox& box, const Search
     result.normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
     result.planes.resize(result.normals.size());
     result.unreachable_mm2.resize(result.normals.size());
-    const JudgedPiece judged = piece.samples->judged();
-    const AccessSweep sweep(piece, judged, cap_bases(piece), settings.objectives.tilt_deg);
+    const AccessSweep sweep = access_sweep(piece, settings.objectives.tilt_deg);
     const std::vector<NoCutTriangle> no_cut = no_cut_triangles(*piece.mesh, options.no_cut);
     parallel_for(0, result.normals.size(), [&](std::size_t n) {
         context.check_cancelled();

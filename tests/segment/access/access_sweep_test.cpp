@@ -422,9 +422,9 @@ TEST(AccessSweep, AFurtherBaseNeverMakesTheLeastLarger) {
                         if (std::none_of(few.begin(), few.end(), [](const SideOnBase& b) { return b.is_stable(); })) {
                             continue;
                         }
-                        const double less = min_unreachable_mm2(all.first(count + 1));
-                        EXPECT_LE(less, min_unreachable_mm2(few)) << name;
-                        smaller += less < min_unreachable_mm2(few) ? 1 : 0;
+                        const double less = best_base(all.first(count + 1)).unreachable_mm2;
+                        EXPECT_LE(less, best_base(few).unreachable_mm2) << name;
+                        smaller += less < best_base(few).unreachable_mm2 ? 1 : 0;
                     }
                 }
             }
@@ -437,9 +437,9 @@ TEST(AccessSweep, TheLeastIsThatOfTheBasesThatCarry) {
     const SideOnBase carries{1, 30, 0, 10, 100};
     const SideOnBase also{2, 20, 0, 50, 100};
     const SideOnBase too_small{3, 5, 0, 9.9, 100};
-    EXPECT_EQ(min_unreachable_mm2(std::array{carries, too_small, also}), 20);
-    EXPECT_EQ(min_unreachable_mm2(std::array{too_small, carries}), 30);
-    EXPECT_EQ(min_unreachable_mm2(std::array{too_small}), 5);
+    EXPECT_EQ(best_base(std::array{carries, too_small, also}).unreachable_mm2, 20);
+    EXPECT_EQ(best_base(std::array{too_small, carries}).unreachable_mm2, 30);
+    EXPECT_EQ(best_base(std::array{too_small}).unreachable_mm2, 5);
 }
 
 TEST(AccessSweep, TurningModelPlanesAndDirectionsTogetherChangesNothing) {
@@ -527,7 +527,8 @@ TEST(AccessSweep, AreasOfABarAreKnown) {
             EXPECT_TRUE(s.is_stable());
         }
     }
-    for (const PlaneAccess& access : bar.sweep({0, 0, 1}, 0)) EXPECT_EQ(min_unreachable_mm2(access.above), 0);  // steep
+    for (const PlaneAccess& access : bar.sweep({0, 0, 1}, 0))
+        EXPECT_EQ(best_base(access.above).unreachable_mm2, 0);  // steep
     const std::vector<PlaneAccess> beside =
         AccessSweep(bar.pieces[0].piece, bar.judged(), {}, 60).sweep({0, 0, 1}, std::array{-1.0, 121.0});
     EXPECT_EQ(beside[0].below[0].unreachable_mm2, 0);  // no sample
