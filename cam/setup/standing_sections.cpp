@@ -1,5 +1,6 @@
 // One pass over the triangles of the lowest third per height. Points below a section are united along the edges below
 // it, from height to height, so that each crossed triangle knows whether its part of the surface reaches the base.
+// O(heights * triangles of the lowest third + crossings log crossings).
 
 #include "cam/setup/standing_sections.h"
 

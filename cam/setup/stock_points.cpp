@@ -1,4 +1,4 @@
-// Points inside of the piece are those in the dexels of their columns (dexel_map.h). Maps take points away column by
+// Points inside of the piece are those in the spans of their columns (solid_lines.h). Maps take points away column by
 // column, by the bits of words. O(triangles + crossings log crossings + points); 1 bit per point.
 
 #include "cam/setup/stock_points.h"
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "segment/raster/dexel_map.h"
+#include "segment/raster/solid_lines.h"
 
 namespace qchopper {
 namespace {
@@ -108,12 +108,12 @@ StockPoints::StockPoints(const TriangleMesh& mesh, const Pose& piece_in_setup, c
     std::vector<Vec3> in_box;
     in_box.reserve(mesh.points.size());
     for (const Vec3& p : mesh.points) in_box.push_back(apply(piece_in_setup, p) - box.min);
-    const DexelMap map = dexel_map(in_box, mesh.triangles, Lines{*this, counts_[0], counts_[1]});
+    const SolidLines map = solid_lines(in_box, mesh.triangles, Lines{*this, counts_[0], counts_[1]});
 
     left_.assign(counts_[0] * counts_[1] * words_, 0);
     for (std::size_t index = 0; index < counts_[0] * counts_[1]; ++index) {
         const double start = column(index).start - box.min.z;
-        const std::span<const Dexel> solid = map.at(index);
+        const std::span<const SolidSpan> solid = map.at(index);
         auto next = solid.begin();
         for (std::size_t k = 0; k < counts_[2]; ++k) {
             const double z = start + static_cast<double>(k) * step_.z;

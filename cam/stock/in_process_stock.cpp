@@ -34,7 +34,7 @@ constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr std::size_t cells_at_once = 64;                    // of a row
 constexpr double min_way = 1e-6;                             // mm across; a shorter line goes straight down
 constexpr double min_sine = 1e-9;                            // of the angle of a line and a row
-constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
+constexpr double square = 16;                                // cells of a map of which the highest is known
 
 // Where a line enters and leaves a box: from the higher parameter to the lower.
 struct Span {
@@ -126,25 +126,17 @@ bool is_above(const HeightField& map, Vec3 p) {
 class Raised {
  public:
     // `ray_in_map`: from the map that is asked for.
-    Raised(HeightField down_to, const Pose& ray_in_map) : down_to_(std::move(down_to)), ray_in_map_(ray_in_map) {
-        columns_ = (down_to_.columns + square - 1) / square;
-        top_.assign(columns_ * ((down_to_.rows + square - 1) / square), HeightField::nothing);
-        for (std::size_t row = 0; row < down_to_.rows; ++row) {
-            for (std::size_t column = 0; column < down_to_.columns; ++column) {
-                float& top = top_[row / square * columns_ + column / square];
-                top = std::max(top, down_to_.at(column, row));
-            }
-        }
-    }
+    Raised(HeightField down_to, const Pose& ray_in_map)
+        : down_to_(std::move(down_to)), ray_in_map_(ray_in_map), squares_(coarser(down_to_, square)) {}
 
     // How many points from this one on, `step` apart along the ray, are surely removed: 0 if this one is not.
     std::size_t removed_from(Vec3 on_ray, double step) const {
         const Vec3 p = apply(ray_in_map_, on_ray);
         if (!is_above(down_to_, p)) return 0;
-        const double wide = static_cast<double>(square) * down_to_.cell;
+        const double wide = squares_.cell;
         const double column = std::floor(p.x / wide);
         const double row = std::floor(p.y / wide);
-        const float top = top_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+        const float top = squares_.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
         // A little inside, so that rounding puts no point beside the square.
         const Vec3 along = rotate(ray_in_map_, {0, 0, step});
         const double inside = 1e-6;
@@ -168,8 +160,7 @@ class Raised {
 
     HeightField down_to_;
     Pose ray_in_map_;
-    std::size_t columns_ = 0;
-    std::vector<float> top_;  // of each square
+    HeightField squares_;  // the highest of each
 };
 
 class Rays {

@@ -1,5 +1,6 @@
 // Each hole is asked for its drill, and for what stands in the way of drill and holder: points on discs above the cap,
 // up to the top of the block. Foam is what may be foam (in_process_stock.h), so that there is never more in the way.
+// O(holes * points of drill and holder * directions).
 
 #include "cam/toolpath/drilling.h"
 

@@ -1,7 +1,8 @@
-// Shortest path over places on the gates. From each of them the directions that pass all gates up to the
-// next one form a wedge, which narrows from gate to gate (H. Imai and M. Iri, "Polygonal approximations of a curve",
-// 1988, for the graph; the wedge after J. Sklansky and V. Gonzalez, "Fast polygonal approximation of digitized curves",
-// 1980). A corner that is rounded is compared with the gates at points of its parabola.
+// Shortest path over places on the gates. From each of them the directions that pass all gates up to the next one form
+// a wedge, which narrows from gate to gate (H. Imai and M. Iri, "Polygonal approximations of a curve", 1988, for the
+// graph; the wedge after J. Sklansky and V. Gonzalez, "Fast polygonal approximation of digitized curves", 1980). A
+// corner that is rounded is compared with the gates at points of its parabola. O(gates * gates that a straight line
+// passes).
 
 #include "cam/toolpath/path_reduction.h"
 

@@ -1,5 +1,5 @@
 // Levels are halved twice where needed: at each point of the level between two others the surface is followed up and
-// down to them, and the scallop height comes from where they are (scallop.h).
+// down to them, and the scallop height comes from where they are (scallop.h). O(levels * squares of the map) at most.
 
 #include "cam/toolpath/waterline_passes.h"
 

@@ -1,6 +1,6 @@
 // Marching squares; where opposite corners of a square are low, they stay apart, so that no line crosses the ridge
 // between them. The pieces of a level are joined by the sides of squares on which they end, each of which begins one
-// piece and ends one.
+// piece and ends one. O(squares + crossings log crossings) a level.
 
 #include "cam/toolpath/waterlines.h"
 

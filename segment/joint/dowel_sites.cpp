@@ -58,11 +58,16 @@ bool PieceSurface::is_clear(const Axis& axis, double distance, std::int32_t cut)
     return clear;
 }
 
+namespace {
+
+// Whether a dowel at a point of the contact's plane is clear in both pieces.
 bool is_clear(const ContactSides& sides, Vec3 point, const DowelSize& size) {
     const Vec3 depth = size.depth * sides.plane.normal;
     return sides.above.is_clear({point, point + depth}, size.clearance(), sides.cut) &&
            sides.below.is_clear({point, point - depth}, size.clearance(), sides.cut);
 }
+
+}  // namespace
 
 std::vector<Point2> grid_points(const FlatRegion& contact, std::size_t most) {
     std::vector<Point2> points;

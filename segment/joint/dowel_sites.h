@@ -36,14 +36,11 @@ struct ContactSides {
     std::int32_t cut = 0;
 };
 
-// Whether a dowel at a point of the contact's plane is clear in both pieces. Precondition: the point is in the contact.
-bool is_clear(const ContactSides& sides, Vec3 point, const DowelSize& size);
-
 // The points of a grid that lie in the contact, at most about `most` of them, row by row. The spacing follows from the
 // area, so that thin walls get as many as wide faces; it is at least 1 mm. O(edges x rows they pass + points).
 std::vector<Point2> grid_points(const FlatRegion& contact, std::size_t most);
 
-// Of the points those where a dowel of this size is clear, in their order.
+// Of the points, which lie in the contact, those where a dowel of this size is clear in both pieces, in their order.
 std::vector<Point2> clear_sites(const ContactSides& sides, std::span<const Point2> points, const DowelSize& size);
 
 }  // namespace qchopper

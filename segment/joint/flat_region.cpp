@@ -1,6 +1,7 @@
 // A cap of the piece below is clipped by the later cuts of the piece above. What is then connected lies below one
 // single piece, so one point decides whether that is the one. No polygons are intersected but with half-planes, and
-// edges that polygons share are clipped once, so outlines follow from the corners' numbers alone.
+// edges that polygons share are clipped once, so outlines follow from the corners' numbers alone. O(n log n) for n
+// triangles of both caps.
 
 #include "segment/joint/flat_region.h"
 
@@ -204,6 +205,9 @@ FlatPolygons cap_polygons(const Piece& piece, const HalfSpace& half_space) {
     return flat;
 }
 
+namespace {
+
+// With their outlines; regions smaller than this are left out.
 FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double min_mm2) {
     FlatRegion region;
     region.points = flattened_points(flat, plane);
@@ -216,6 +220,8 @@ FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double min_mm
     }
     return region;
 }
+
+}  // namespace
 
 FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const Piece& above, const HalfSpace& of_above,
                           double min_mm2) {

@@ -40,9 +40,6 @@ std::vector<Loop> outlines(const FlatPolygons& flat);
 // counter-clockwise. Points that they do not use are left out.
 FlatPolygons cap_polygons(const Piece& piece, const HalfSpace& half_space);
 
-// With their outlines; regions smaller than this are left out.
-FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double min_mm2);
-
 // Where two pieces on the two sides of a cut touch along its plane, without regions smaller than `min_mm2`. `below`
 // and `above` bound the pieces and have the same cut. Empty if they do not touch. O(cap triangles of both).
 FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const Piece& above, const HalfSpace& of_above,

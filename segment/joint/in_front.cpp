@@ -1,5 +1,6 @@
 // The tree of one solid is asked for the triangles in the endless column over each triangle of the other; outlines are
-// clipped after I. Sutherland and G. Hodgman, "Reentrant polygon clipping" (1974).
+// clipped after I. Sutherland and G. Hodgman, "Reentrant polygon clipping" (1974). No solid_lines.h: what lies over
+// each other by an area decides, however small beside the cells of a grid.
 
 #include "segment/joint/in_front.h"
 

@@ -1,5 +1,5 @@
 // A loop lies where any of its points lies that is not on the other loop: inside it or outside, by the crossing number
-// (polygon.h). Pairs of loops are first sorted out by their bounding rectangles.
+// (polygon.h). Pairs of loops are first sorted out by their bounding rectangles. O(L^2 + L N) for L loops of N points.
 
 #include "segment/mesh/polygon_nesting.h"
 

@@ -1,4 +1,4 @@
-// Sites: the dexels of the lines around one are intersected. O(lines x lines within the clearance).
+// Sites: the spans of the lines around one are intersected. O(lines x lines within the clearance).
 
 #include "segment/objectives/dowel_columns.h"
 
@@ -43,16 +43,16 @@ struct SpacedLines {
     }
 };
 
-std::span<const Dexel> solid_at(const DexelMap& map, std::int32_t column, std::int32_t row) {
+std::span<const SolidSpan> solid_at(const SolidLines& map, std::int32_t column, std::int32_t row) {
     const auto c = static_cast<std::size_t>(column);  // less than 0: larger than any
     const auto r = static_cast<std::size_t>(row);
-    return c < map.columns && r < map.rows ? map.at(c, r) : std::span<const Dexel>();
+    return c < map.columns && r < map.rows ? map.at(c, r) : std::span<const SolidSpan>();
 }
 
-void intersect(std::vector<Dexel>& ranges, std::span<const Dexel> others, std::vector<Dexel>& scratch) {
+void intersect(std::vector<SolidSpan>& ranges, std::span<const SolidSpan> others, std::vector<SolidSpan>& scratch) {
     scratch.clear();
     std::size_t k = 0;
-    for (const Dexel& r : ranges) {
+    for (const SolidSpan& r : ranges) {
         while (k < others.size() && others[k].high < r.low) ++k;
         for (std::size_t o = k; o < others.size() && others[o].low <= r.high; ++o) {
             scratch.push_back({std::max(r.low, others[o].low), std::min(r.high, others[o].high)});
@@ -71,7 +71,7 @@ SolidColumns solid_columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, d
         points.push_back({dot(frame.u, p - origin), dot(frame.v, p - origin), height(normal, p)});
     }
     const SpacedLines lines(points, spacing);
-    return {lines.first_i, lines.first_j, dexel_map(points, mesh.triangles, lines)};
+    return {lines.first_i, lines.first_j, solid_lines(points, mesh.triangles, lines)};
 }
 
 std::vector<DowelSite> dowel_sites(const SolidColumns& columns, const ConnectorOptions& dowel) {
@@ -85,19 +85,19 @@ std::vector<DowelSite> dowel_sites(const SolidColumns& columns, const ConnectorO
     }
     const double shorter = dowel.depth + dowel.wall;
     std::vector<DowelSite> sites;
-    std::vector<Dexel> ranges;
-    std::vector<Dexel> scratch;
+    std::vector<SolidSpan> ranges;
+    std::vector<SolidSpan> scratch;
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(columns.map.rows); ++j) {
         for (std::int32_t i = 0; i < static_cast<std::int32_t>(columns.map.columns); ++i) {
             ranges.clear();
-            for (const Dexel& r : solid_at(columns.map, i, j)) {
+            for (const SolidSpan& r : solid_at(columns.map, i, j)) {
                 if (r.high - r.low >= 2 * shorter) ranges.push_back(r);
             }
             for (const auto& [di, dj] : around) {
                 if (ranges.empty()) break;
                 intersect(ranges, solid_at(columns.map, i + di, j + dj), scratch);
             }
-            for (const Dexel& r : ranges) {
+            for (const SolidSpan& r : ranges) {
                 if (r.high - r.low >= 2 * shorter)
                     sites.push_back({columns.first_i + i, columns.first_j + j, {r.low + shorter, r.high - shorter}});
             }

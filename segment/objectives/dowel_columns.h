@@ -13,7 +13,7 @@
 
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/objectives/objectives.h"
-#include "segment/raster/dexel_map.h"
+#include "segment/raster/solid_lines.h"
 
 namespace qchopper {
 
@@ -22,7 +22,7 @@ namespace qchopper {
 struct SolidColumns {
     std::int32_t first_i = 0;
     std::int32_t first_j = 0;
-    DexelMap map;
+    SolidLines map;
 };
 
 // Precondition: a closed mesh. O(points + triangles + crossings of lines and triangles).
@@ -31,7 +31,7 @@ SolidColumns solid_columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, d
 struct DowelSite {
     std::int32_t i = 0;
     std::int32_t j = 0;
-    Dexel offsets;  // of the planes across which a dowel fits
+    SolidSpan offsets;  // of the planes across which a dowel fits
 };
 
 // Row by row, ascending in i and in offsets.

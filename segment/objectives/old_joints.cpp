@@ -23,10 +23,10 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
     const double reach = options.clearance() / options.spacing;
     const auto most = static_cast<std::int32_t>(std::floor(reach));
     const double depth = options.depth + options.wall;
-    const DexelMap& map = columns.map;
+    const SolidLines& map = columns.map;
     std::vector<std::uint8_t> is_deep(map.columns * map.rows, 0);
     for (std::size_t line = 0; line < is_deep.size(); ++line) {
-        for (const Dexel& d : map.at(line)) {
+        for (const SolidSpan& d : map.at(line)) {
             if (std::abs(d.low - cap_height) <= flush * depth && d.high - d.low >= depth) is_deep[line] = 1;
         }
     }
@@ -36,6 +36,7 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
         if (i < 0 || j < 0 || i >= count_i || j >= count_j) return false;
         return is_deep[static_cast<std::size_t>(j) * map.columns + static_cast<std::size_t>(i)] != 0;
     };
+    // Not by marked_within(): a line beside the map is not deep, and it is not in the map.
     const auto fits = [&](std::int32_t i, std::int32_t j) {
         for (std::int32_t dj = -most; dj <= most; ++dj) {
             for (std::int32_t di = -most; di <= most; ++di) {

@@ -1,6 +1,7 @@
 // Edge functions over the samples of each triangle's box (Pineda, "A parallel algorithm for polygon rasterization",
 // 1988), in double; depth and triangle compete as one 64-bit number by an atomic minimum, so that the result does not
 // depend on the order. O(triangles + samples of their boxes); 8 bytes a sample.
+// Not by cells_under.h: an edge counts for both of its triangles, so that no sample between them stays empty.
 
 #include "segment/picture/film.h"
 

@@ -1,7 +1,7 @@
 // Row by row of the disc: each is a window of some width, and the largest value in it is the larger of those in two
 // windows of a power of two that cover it (H. Yuan and M. J. Atallah, "Data structures for range minimum queries in
 // multidimensional arrays", 2010). The windows of one row of the map are doubled in place, and are used for all rows of
-// the disc of that size before the next doubling.
+// the disc of that size before the next doubling. O(cells * radius / cell).
 //
 // Marks are bits of words: a row is widened by one cell to each side at a time, and where it is as wide as rows of the
 // disc it is united with the rows of the result that lie so far off.

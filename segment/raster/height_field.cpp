@@ -2,6 +2,8 @@
 // their order. After the drop-cutter on a height field: tip heights by dilation with the tool's shape, the surface that
 // is left by erosion (K. Suresh and D. C. H. Yang, "Constant scallop-height machining of free-form surfaces", 1994, for
 // the offset; J. Serra, "Image analysis and mathematical morphology", 1982, for the closing).
+// O(triangles + cells covered); the closing O(cells * (radius / cell)^2). Cell centres are opposed to cell centres: the
+// CL surfaces of cam/stock/cl_surface.h take each cell at its point nearest to the axis, for tools of any shape.
 
 #include "segment/raster/height_field.h"
 

@@ -1,5 +1,6 @@
 // A line is the intersection of the surface with a plane or a ball, traced from triangle to triangle. Start triangles
 // and directions are spread by the golden ratio. The points near the line sink by a smooth profile across it.
+// O(triangles), and for each line the triangles and points near it.
 
 #include "segment/sample/draw_pen_grooves.h"
 

@@ -1,6 +1,6 @@
 // Distances after I. Quilez, "Distance functions" (2013-2020): round cone, triangle, ellipsoid estimate; the joints are
 // his quadratic smooth minimum, which is an exact minimum where the two differ by more than the blend. Tubes along the
-// splines of E. Catmull and R. Rom, "A class of local interpolating splines" (1974).
+// splines of E. Catmull and R. Rom, "A class of local interpolating splines" (1974). O(primitives) a point.
 
 #include "segment/sample/field.h"
 

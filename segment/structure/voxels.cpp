@@ -1,4 +1,4 @@
-// One line per column of the grid along the upright axis (dexel_map.h): centres in its dexels are inside. Voxels that
+// One line per column of the grid along the upright axis (solid_lines.h): centres in its spans are inside. Voxels that
 // are thick are those of blocks of 3 x 3 x 3, an opening by a cube. O(triangles + crossings + voxels log voxels).
 
 #include "segment/structure/voxels.h"
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "segment/mesh/plane_frame.h"
-#include "segment/raster/dexel_map.h"
+#include "segment/raster/solid_lines.h"
 
 namespace qchopper {
 namespace {
@@ -90,11 +90,11 @@ std::vector<std::uint32_t> voxels_inside(const TriangleMesh& mesh, const VoxelGr
     std::vector<Vec3> local;
     local.reserve(mesh.points.size());
     for (const Vec3 p : mesh.points) local.push_back(grid.local(p));
-    const DexelMap map = dexel_map(local, mesh.triangles, CentreLines{grid.count[0], grid.count[1]});
+    const SolidLines map = solid_lines(local, mesh.triangles, CentreLines{grid.count[0], grid.count[1]});
     std::vector<std::uint32_t> voxels;
     const std::uint32_t layer = grid.count[0] * grid.count[1];
     for (std::uint32_t line = 0; line < layer; ++line) {
-        for (const Dexel& d : map.at(line)) {
+        for (const SolidSpan& d : map.at(line)) {
             const CellSpan inside = centres_within(d.low, std::nextafter(d.high, d.low), grid.count[2]);
             for (std::size_t k = inside.first; k < inside.end; ++k) {
                 voxels.push_back(static_cast<std::uint32_t>(k) * layer + line);

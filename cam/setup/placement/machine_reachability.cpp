@@ -52,13 +52,13 @@ std::string tenths(double value) {
     return significant(std::round(value * 10) / 10, 15);
 }
 
-}  // namespace
-
 const char* describe(PoseKind kind) {
     constexpr std::array<const char*, 6> words{
         "tip on the piece", "corner of the block", "edge of the block", "tip above the block", "home", "tool change"};
     return words[static_cast<std::size_t>(kind)];
 }
+
+}  // namespace
 
 const char* describe(Remedy remedy) {
     constexpr std::array<const char*, 8> words{"none",

@@ -22,9 +22,6 @@ namespace qchopper {
 // Of the tool tip on the piece, at the block, where it comes and goes above them; and where programs begin and end.
 enum class PoseKind : std::uint8_t { tip, corner, edge, retract, home, tool_change };
 
-// "tip on the piece", "corner of the block", ...
-const char* describe(PoseKind kind);
-
 // The tip's frame for a direction in which the tool comes out: its z is -tool_axis; `turn` (radians) is about the tool
 // axis, and at 0 its x lies in the vertical plane of the tool axis, along -x for straight up. R = Rz(azimuth) Ry(pi -
 // tilt) Rz(turn).

@@ -1,5 +1,5 @@
 // Branches, turns and angles are tried one after another, what was best at the last place first; each is left as soon
-// as it is known to be worse than the best so far.
+// as it is known to be worse than the best so far. O(regions * configurations * turns * angles * poses) at most.
 
 #include "cam/setup/placement/place_score.h"
 

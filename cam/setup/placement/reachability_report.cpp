@@ -1,5 +1,6 @@
 // Judges every region once more, to its end. A region that is not held is judged pose by pose as well: if each pose
-// could be held alone, what is missing is one configuration for all.
+// could be held alone, what is missing is one configuration for all. O(regions * poses) beside the search of the
+// placement.
 
 #include "cam/setup/placement/reachability_report.h"
 

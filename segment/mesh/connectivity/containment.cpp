@@ -2,6 +2,8 @@
 // (shells_around). interior_point takes the middle of the longest segment inside along the lines of a grid, and then of
 // the segments along the axes through it. shells_around follows one ray per shell upwards, and passes over blocks of
 // triangles whose box is above none of them; O(triangles * rays) at worst.
+//
+// Single lines along the axes, before segment/raster in the order of folders: solid lines ask the same line_crossing.h.
 
 #include "segment/mesh/connectivity/containment.h"
 

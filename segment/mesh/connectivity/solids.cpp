@@ -1,6 +1,7 @@
 // Cavities: a line from the vertex of each that is farthest along a direction perpendicular to the axis, in that
 // direction. All lines of one direction in one pass over the triangles; the boxes of blocks of triangles
 // (Shells::block) exclude most of them. O(triangles + blocks * log cavities), O(triangles * cavities) at worst.
+// Not by solid_lines.h, which stands after it: the lines are no grid.
 
 #include "segment/mesh/connectivity/solids.h"
 

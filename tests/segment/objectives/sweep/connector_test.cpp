@@ -47,7 +47,7 @@ TEST(Connector, ColumnsOfABallAreItsChords) {
             ASSERT_LE(found.size(), 1U);
             if (square > 45 * 45) continue;
             ASSERT_EQ(found.size(), 1U);
-            const Dexel r = found.front();
+            const SolidSpan r = found.front();
             EXPECT_NEAR(r.high - r.low, 2 * std::sqrt(radius * radius - square), 0.5);
             volume += 25 * (r.high - r.low);
         }
@@ -60,7 +60,7 @@ TEST(Connector, ColumnsAlongEdgesAndFacesEnterAsOftenAsTheyLeave) {
         for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, canonical({normalized({1, 1, 0}), 0}).normal}) {
             const SolidColumns columns = solid_columns(mesh, n, mesh.points.front(), 0.37);
             double volume = 0;
-            for (const Dexel& r : columns.map.dexel) volume += 0.37 * 0.37 * (r.high - r.low);
+            for (const SolidSpan& r : columns.map.spans) volume += 0.37 * 0.37 * (r.high - r.low);
             const double size = norm(bounds(mesh).size());
             EXPECT_NEAR(volume, volume_mm3(mesh), 0.02 * volume_mm3(mesh) + 0.01 * size * size * 0.37) << name;
         }
@@ -77,9 +77,10 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
     const auto is_solid = [&](std::int32_t i, std::int32_t j, double low, double high) {
         if (i < 0 || j < 0 || i >= count_i || j >= count_j) return false;
         const auto solid = columns.map.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-        return std::any_of(solid.begin(), solid.end(), [&](const Dexel& d) { return d.low <= low && d.high >= high; });
+        return std::any_of(solid.begin(), solid.end(),
+                           [&](const SolidSpan& d) { return d.low <= low && d.high >= high; });
     };
-    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Dexel>> sites;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<SolidSpan>> sites;
     for (const DowelSite& site : dowel_sites(columns, dowel)) sites[{site.i, site.j}].push_back(site.offsets);
     const Extent range = extent(mesh, n);
     std::size_t found = 0;
@@ -95,7 +96,7 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
                     }
                 }
                 bool is_site = false;
-                for (const Dexel& r : sites[{i + columns.first_i, j + columns.first_j}])
+                for (const SolidSpan& r : sites[{i + columns.first_i, j + columns.first_j}])
                     is_site = is_site || (r.low <= o && o <= r.high);
                 ASSERT_EQ(is_site, fits) << i << " " << j << " " << o;
                 found += fits ? 1 : 0;

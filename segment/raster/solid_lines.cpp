@@ -1,18 +1,18 @@
-#include "segment/raster/dexel_map.h"
+#include "segment/raster/solid_lines.h"
 
 namespace qchopper {
 
-DexelMap dexels_between(std::vector<LineCrossing> crossings, std::size_t columns, std::size_t rows) {
-    // Leaving before entering: solids that touch are two dexels.
+SolidLines spans_between(std::vector<LineCrossing> crossings, std::size_t columns, std::size_t rows) {
+    // Leaving before entering: solids that touch are two spans.
     std::sort(crossings.begin(), crossings.end(), [](const LineCrossing& a, const LineCrossing& b) {
         if (a.line != b.line) return a.line < b.line;
         return a.height != b.height ? a.height < b.height : a.depth_change < b.depth_change;
     });
-    DexelMap map{columns, rows, {}, {}};
+    SolidLines map{columns, rows, {}, {}};
     map.first.reserve(columns * rows + 1);
     std::size_t next = 0;
     for (std::size_t line = 0; line < columns * rows; ++line) {
-        map.first.push_back(static_cast<std::uint32_t>(map.dexel.size()));
+        map.first.push_back(static_cast<std::uint32_t>(map.spans.size()));
         std::int32_t depth = 0;
         double low = 0;
         for (; next < crossings.size() && crossings[next].line == line; ++next) {
@@ -20,11 +20,11 @@ DexelMap dexels_between(std::vector<LineCrossing> crossings, std::size_t columns
             depth += crossings[next].depth_change;
             if (before <= 0 && depth > 0) low = crossings[next].height;
             if (before > 0 && depth <= 0 && low < crossings[next].height) {
-                map.dexel.push_back({low, crossings[next].height});
+                map.spans.push_back({low, crossings[next].height});
             }
         }
     }
-    map.first.push_back(static_cast<std::uint32_t>(map.dexel.size()));
+    map.first.push_back(static_cast<std::uint32_t>(map.spans.size()));
     return map;
 }
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "segment/mesh/line_crossing.h"
@@ -21,22 +22,22 @@
 namespace qchopper {
 
 // A solid interval of a line.
-struct Dexel {
+struct SolidSpan {
     double low = 0;
     double high = 0;
-    bool operator==(const Dexel&) const = default;
+    bool operator==(const SolidSpan&) const = default;
 };
 
-struct DexelMap {
+struct SolidLines {
     std::size_t columns = 0;
     std::size_t rows = 0;
-    std::vector<std::uint32_t> first;  // per line, row by row: in `dexel`; and one more
-    std::vector<Dexel> dexel;          // of each line ascending; they do not overlap
+    std::vector<std::uint32_t> first;  // per line, row by row: in `spans`; and one more
+    std::vector<SolidSpan> spans;      // of each line ascending; they do not overlap
 
-    std::span<const Dexel> at(std::size_t line) const {
-        return std::span(dexel).subspan(first[line], first[line + 1] - first[line]);
+    std::span<const SolidSpan> at(std::size_t line) const {
+        return std::span(spans).subspan(first[line], first[line + 1] - first[line]);
     }
-    std::span<const Dexel> at(std::size_t column, std::size_t row) const { return at(row * columns + column); }
+    std::span<const SolidSpan> at(std::size_t column, std::size_t row) const { return at(row * columns + column); }
 };
 
 // Where a line crosses the surface.
@@ -47,14 +48,14 @@ struct LineCrossing {
 };
 
 // What lies between crossings of all lines, in any order. O(crossings log crossings + lines).
-DexelMap dexels_between(std::vector<LineCrossing> crossings, std::size_t columns, std::size_t rows);
+SolidLines spans_between(std::vector<LineCrossing> crossings, std::size_t columns, std::size_t rows);
 
 // `lines` says where they stand: columns and rows, their numbers; at(column, row), a Point2; columns_within(low, high)
 // and rows_within(low, high), a CellSpan of at least those that stand in an interval of x or of y. A point of a line is
 // in material where the surface winds around it more than 0 times: solids that overlap are one. Precondition: the
 // triangles are closed and face outwards. O(points + triangles + lines asked).
 template <class Lines>
-DexelMap dexel_map(std::span<const Vec3> points, std::span<const Triangle> triangles, const Lines& lines) {
+SolidLines solid_lines(std::span<const Vec3> points, std::span<const Triangle> triangles, const Lines& lines) {
     std::vector<LineCrossing> crossings;
     for (const Triangle& t : triangles) {
         const std::array<Vec3, 3> p{points[t[0]], points[t[1]], points[t[2]]};
@@ -76,7 +77,7 @@ DexelMap dexel_map(std::span<const Vec3> points, std::span<const Triangle> trian
             }
         }
     }
-    return dexels_between(std::move(crossings), lines.columns, lines.rows);
+    return spans_between(std::move(crossings), lines.columns, lines.rows);
 }
 
 }  // namespace qchopper
