@@ -1,4 +1,5 @@
-// Planes are exact and applied as they stand, never nudged, which gives the same bits.
+// Planes are exact and applied as they stand, never nudged, which gives the same bits. O(cuts x triangles of the pieces
+// that they cut).
 
 #include "app/store/replay.h"
 

@@ -47,7 +47,7 @@ KrlAggregate read_aggregate(KrlLine& line) {
 ProgramFrame read_frame(KrlLine& line) {
     const KrlAggregate a = read_aggregate(line);
     if (a.given != krl_frame) line.refuse("X, Y, Z, A, B and C are needed, and nothing else");
-    return {position_of(a), krl_degree * Vec3{a[KrlComponent::a], a[KrlComponent::b], a[KrlComponent::c]}};
+    return {position_of(a), degree * Vec3{a[KrlComponent::a], a[KrlComponent::b], a[KrlComponent::c]}};
 }
 
 ProgramLoad read_load(KrlLine& line) {

@@ -63,7 +63,7 @@ void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
         stated.feed = true;
     } else if (which == "ori1" || which == "ori2") {
         const std::size_t turn = which == "ori1" ? 0 : 1;
-        state.turn_speed[turn] = krl_degree * above_zero(line, largest_turn);
+        state.turn_speed[turn] = degree * above_zero(line, largest_turn);
         stated.turn_speed[turn] = true;
     } else {
         line.refuse("$VEL." + which + " is not known");

@@ -8,11 +8,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/units.h"
 #include "sim/program/krl_line.h"
 #include "sim/program/parsed_program.h"
 
@@ -37,8 +37,6 @@ struct KrlFile {
 KrlFile read_krl_file(const ProgramFile& file);
 
 // krl_aggregate.cpp: {X 1.00,Y 2.00,...}, read by the names of the components in any order.
-
-constexpr double krl_degree = std::numbers::pi / 180;  // radians
 
 // Components in the order of this table; a bit of `given` for each that was stated. external: E1 to E6, of which an
 // aggregate has one at most.

@@ -197,7 +197,7 @@ void KrlExecution::take_external(const KrlLine& line, const KrlAggregate& target
     if (!target.has(KrlComponent::external)) return;
     if (external_axis_ != 0 && external_axis_ != target.external_axis) line.refuse("two external axes are named");
     external_axis_ = target.external_axis;
-    e1_ = krl_degree * target[KrlComponent::external];
+    e1_ = degree * target[KrlComponent::external];
 }
 
 void KrlExecution::check_before_ptp(const KrlLine& line) const {
@@ -225,7 +225,7 @@ void KrlExecution::read_ptp(KrlLine& line) {
     check_before_ptp(line);
     (target.has(KrlComponent::external) ? with_e1_ : without_e1_) = place_;
     ProgramStep& step = add(StepKind::joint_move);
-    for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = krl_degree * target.value[axis + 6];
+    for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = degree * target.value[axis + 6];
     take_external(line, target);
     step.e1 = e1_;
     stated_.pose = false;
@@ -258,7 +258,7 @@ void KrlExecution::read_lin(KrlLine& line) {
     rounded_ = is_rounded ? std::optional(place_) : std::nullopt;
     const bool is_full = (target.given & krl_frame) == krl_frame;
     for (std::size_t i = 0; i < 3; ++i) pose_[i] = target.value[i];
-    for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = krl_degree * target.value[i];
+    for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = degree * target.value[i];
     take_external(line, target);
     ProgramStep& step = add(StepKind::linear_move);
     step.values = pose_;

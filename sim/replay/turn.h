@@ -4,14 +4,11 @@
 
 #pragma once
 
-#include <numbers>
-
 #include "base/pose.h"
+#include "base/units.h"
 #include "sim/program/parsed_program.h"
 
 namespace qchopper {
-
-constexpr double degree = std::numbers::pi / 180;  // radians
 
 Pose pose_of(const ProgramFrame& frame);
 

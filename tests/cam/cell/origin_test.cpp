@@ -1,4 +1,4 @@
-#include "cam/cell/origin.h"
+#include "cam/cell/cell.h"
 
 #include <gtest/gtest.h>
 
