@@ -8,6 +8,7 @@
 #include <numbers>
 
 namespace qchopper {
+namespace {
 
 void add_box(TriangleMesh& mesh, const Box& box) {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
@@ -22,6 +23,8 @@ void add_box(TriangleMesh& mesh, const Box& box) {
         mesh.triangles.push_back({first + s[0], first + s[2], first + s[3]});
     }
 }
+
+}  // namespace
 
 std::array<Box, 12> edges_of(const Box& box) {
     std::array<Box, 12> edges;
