@@ -154,6 +154,7 @@ struct AccessSweep::Prepared {
         const std::vector<Vec3>& known = judged.scan.directions;
         const std::vector<std::uint32_t> allowed = allowed_directions(known, up_of.up, tilt_deg);
         std::vector<Vec3> directions;
+        directions.reserve(allowed.size() + 1);
         for (const std::uint32_t k : allowed) directions.push_back(known[k]);
         if (index_of(known, up_of.up) == known.size()) directions.push_back(up_of.up);
         const UpColumn column(judged.scan, judged.accessibility, up_of.up);

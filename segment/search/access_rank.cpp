@@ -255,6 +255,7 @@ class AccessRanking {
         }
         if (is_of_cut_ && most == never) keep_least(offsets, first_offsets, access_.unreachable_mm2[normal]);
         std::vector<EvaluatedPlane*> chosen;
+        chosen.reserve(offsets.size());
         for (const std::size_t k : offsets) chosen.push_back(&planes[k]);
         return chosen;
     }
@@ -266,6 +267,7 @@ class AccessRanking {
         if (planes.empty()) return;
         const Vec3 normal = planes.front()->candidate.plane.normal;
         std::vector<double> offsets;
+        offsets.reserve(planes.size());
         for (const EvaluatedPlane* plane : planes) offsets.push_back(plane->candidate.wanted_offset);
         const std::vector<std::optional<Nudged>> nudged = nudge(piece_, normal, offsets);
         const std::vector<Extent> forbidden = forbidden_heights(no_cut_, normal);

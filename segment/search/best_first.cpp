@@ -36,6 +36,7 @@ std::vector<std::size_t> next_normals(const BestFirst& search, const Bounds& bou
     std::sort(open.begin(), open.end());
     open.resize(std::min(open.size(), search.normals_at_once));
     std::vector<std::size_t> normals;
+    normals.reserve(open.size());
     for (const auto& [least, n] : open) normals.push_back(n);
     return normals;
 }

@@ -110,6 +110,7 @@ class LateRanking {
         const bool is_last = from == TermStage::fragility;
         if (is_last && most == never && objectives_.forbidden.empty()) keep_least(open, best_, bounds);
         std::vector<EvaluatedPlane*> chosen;
+        chosen.reserve(open.size());
         for (const std::size_t k : open) chosen.push_back(&planes[k]);
         evaluate(chosen, is_last ? TermStage::whole : TermStage::fragility, piece, objectives_);
     }
