@@ -167,9 +167,9 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space
     });
 }
 
-std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& tip) {
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl) {
     return divided(passes, touching,
-                   [&](Vec3 p) { return static_cast<double>(dilation_at(tip, p.x, p.y, touching)) >= p.z - touching; })
+                   [&](Vec3 p) { return static_cast<double>(dilation_at(cl, p.x, p.y, touching)) >= p.z - touching; })
         .free;
 }
 

@@ -26,8 +26,8 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space
 
 double length_of(const std::vector<Pass>& passes);
 
-// The parts of passes along which a tool is about 1.5 mm at most from touching, where `tip` is the CL surface of the
+// The parts of passes along which a tool is about 1.5 mm at most from touching, where `cl` is the CL surface of the
 // tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
-std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& tip);
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl);
 
 }  // namespace qchopper

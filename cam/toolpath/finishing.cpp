@@ -55,37 +55,36 @@ struct SideSlopes {
     std::array<double, 2> x{};
     std::array<double, 2> y{};
 
-    SideSlopes(const HeightField& tip, std::size_t column, std::size_t row) {
-        const auto z = [&](std::size_t c, std::size_t r) { return static_cast<double>(tip.at(c, r)); };
+    SideSlopes(const HeightField& cl, std::size_t column, std::size_t row) {
+        const auto z = [&](std::size_t c, std::size_t r) { return static_cast<double>(cl.at(c, r)); };
         const std::size_t west = column > 0 ? column - 1 : column;
-        const std::size_t east = std::min(column + 1, tip.columns - 1);
+        const std::size_t east = std::min(column + 1, cl.columns - 1);
         const std::size_t south = row > 0 ? row - 1 : row;
-        const std::size_t north = std::min(row + 1, tip.rows - 1);
+        const std::size_t north = std::min(row + 1, cl.rows - 1);
         const double own = z(column, row);
-        x = {(own - z(west, row)) / tip.cell, (z(east, row) - own) / tip.cell};
-        y = {(own - z(column, south)) / tip.cell, (z(column, north) - own) / tip.cell};
+        x = {(own - z(west, row)) / cl.cell, (z(east, row) - own) / cl.cell};
+        y = {(own - z(column, south)) / cl.cell, (z(column, north) - own) / cl.cell};
     }
     double mean_x() const { return 0.5 * (x[0] + x[1]); }
     double mean_y() const { return 0.5 * (y[0] + y[1]); }
 };
 
 // Whether the tool touches what belongs to the region.
-bool touches(const HeightField& tip, const FinishingRegion& region, double radius, std::size_t column,
-             std::size_t row) {
-    const SideSlopes slopes(tip, column, row);
+bool touches(const HeightField& cl, const FinishingRegion& region, double radius, std::size_t column, std::size_t row) {
+    const SideSlopes slopes(cl, column, row);
     const auto cell_at = [&](double x, std::size_t count) {
         return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
     };
     for (const double x : slopes.x) {
         for (const double y : slopes.y) {
             const double upright = 1 / std::sqrt(1 + x * x + y * y);
-            const double away = radius / tip.cell * upright;
-            const std::size_t c = cell_at(static_cast<double>(column) + 0.5 + away * x, tip.columns);
-            const std::size_t r = cell_at(static_cast<double>(row) + 0.5 + away * y, tip.rows);
-            const double height = static_cast<double>(tip.at(column, row)) + radius * (1 - upright);
+            const double away = radius / cl.cell * upright;
+            const std::size_t c = cell_at(static_cast<double>(column) + 0.5 + away * x, cl.columns);
+            const std::size_t r = cell_at(static_cast<double>(row) + 0.5 + away * y, cl.rows);
+            const double height = static_cast<double>(cl.at(column, row)) + radius * (1 - upright);
             // On a slope the point may be as much lower as it is off by a cell.
-            const double rise = std::min(radius, tip.cell * std::hypot(x, y));
-            if (height + rise + tip.cell >= static_cast<double>(region[r * tip.columns + c])) return true;
+            const double rise = std::min(radius, cl.cell * std::hypot(x, y));
+            if (height + rise + cl.cell >= static_cast<double>(region[r * cl.columns + c])) return true;
         }
     }
     return false;
@@ -97,32 +96,32 @@ struct FinishingMasks {
 };
 
 // The cells at which the tool touches the region, by how steep the CL surface is there.
-FinishingMasks masks_of(const HeightField& tip, const FinishingRegion& region, double radius, double min_slope) {
+FinishingMasks masks_of(const HeightField& cl, const FinishingRegion& region, double radius, double min_slope) {
     FinishingMasks masks;
-    masks.flat.assign(tip.height.size(), 0);
-    masks.steep.assign(tip.height.size(), 0);
-    parallel_for(0, tip.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < tip.columns; ++column) {
-            if (!touches(tip, region, radius, column, row)) continue;
-            const SideSlopes slopes(tip, column, row);
+    masks.flat.assign(cl.height.size(), 0);
+    masks.steep.assign(cl.height.size(), 0);
+    parallel_for(0, cl.rows, [&](std::size_t row) {
+        for (std::size_t column = 0; column < cl.columns; ++column) {
+            if (!touches(cl, region, radius, column, row)) continue;
+            const SideSlopes slopes(cl, column, row);
             const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > min_slope;
             CellMask& mask = is_steep ? masks.steep : masks.flat;
-            mask[row * tip.columns + column] = 1;
+            mask[row * cl.columns + column] = 1;
         }
     });
     return masks;
 }
 
 // The cells of the floor over which the tip is less than its radius above it, and those beside them.
-WaterlineFloor foot_of_walls(const HeightField& tip, const FinishingRegion& floor, double radius) {
-    assert(floor.size() == tip.height.size());
+WaterlineFloor foot_of_walls(const HeightField& cl, const FinishingRegion& floor, double radius) {
+    assert(floor.size() == cl.height.size());
     WaterlineFloor foot;
     foot.top = static_cast<double>(*std::min_element(floor.begin(), floor.end())) + radius;
     foot.cells.assign(floor.size(), 0);
     for (std::size_t i = 0; i < floor.size(); ++i) {
-        if (floor[i] < not_finished && static_cast<double>(tip.height[i]) < foot.top) foot.cells[i] = 1;
+        if (floor[i] < not_finished && static_cast<double>(cl.height[i]) < foot.top) foot.cells[i] = 1;
     }
-    foot.cells = dilate_by_square(foot.cells, tip.columns, tip.rows, 1);
+    foot.cells = dilate_by_square(foot.cells, cl.columns, cl.rows, 1);
     return foot;
 }
 
@@ -130,8 +129,8 @@ WaterlineFloor foot_of_walls(const HeightField& tip, const FinishingRegion& floo
 // both orders, until one changes nothing.
 class SurfaceGrowth {
  public:
-    SurfaceGrowth(const CellMask& mask, const HeightField& tip, double by)
-        : tip_(tip), by_(static_cast<float>(by)), distance_(mask.size(), std::numeric_limits<float>::infinity()) {
+    SurfaceGrowth(const CellMask& mask, const HeightField& cl, double by)
+        : cl_(cl), by_(static_cast<float>(by)), distance_(mask.size(), std::numeric_limits<float>::infinity()) {
         for (std::size_t i = 0; i < mask.size(); ++i) {
             if (mask[i] != 0) distance_[i] = 0;
         }
@@ -152,12 +151,12 @@ class SurfaceGrowth {
         for (std::size_t k = 0; k < distance_.size(); ++k) {
             const std::size_t i = is_forward ? k : distance_.size() - 1 - k;
             if (distance_[i] == 0) continue;
-            const std::size_t column = i % tip_.columns;
+            const std::size_t column = i % cl_.columns;
             float least = distance_[i];
             if (column > 0) least = std::min(least, from(i, i - 1));
-            if (column + 1 < tip_.columns) least = std::min(least, from(i, i + 1));
-            if (i >= tip_.columns) least = std::min(least, from(i, i - tip_.columns));
-            if (i + tip_.columns < distance_.size()) least = std::min(least, from(i, i + tip_.columns));
+            if (column + 1 < cl_.columns) least = std::min(least, from(i, i + 1));
+            if (i >= cl_.columns) least = std::min(least, from(i, i - cl_.columns));
+            if (i + cl_.columns < distance_.size()) least = std::min(least, from(i, i + cl_.columns));
             if (least >= distance_[i] || least > by_) continue;
             distance_[i] = least;
             has_changed = true;
@@ -166,10 +165,10 @@ class SurfaceGrowth {
     }
     float from(std::size_t to, std::size_t cell) const {
         if (!(distance_[cell] < by_)) return std::numeric_limits<float>::infinity();
-        return distance_[cell] + std::hypot(static_cast<float>(tip_.cell), tip_.height[to] - tip_.height[cell]);
+        return distance_[cell] + std::hypot(static_cast<float>(cl_.cell), cl_.height[to] - cl_.height[cell]);
     }
 
-    const HeightField& tip_;
+    const HeightField& cl_;
     float by_;
     std::vector<float> distance_;
 };
@@ -177,7 +176,7 @@ class SurfaceGrowth {
 // Cells that hang together, and how far apart their heights are.
 class SteepRegions {
  public:
-    SteepRegions(const HeightField& tip, FinishingMasks& masks) : tip_(tip), masks_(masks), rest_(masks.steep) {}
+    SteepRegions(const HeightField& cl, FinishingMasks& masks) : cl_(cl), masks_(masks), rest_(masks.steep) {}
 
     // Patches lower than a height belong to the flat cells: rows go over them.
     void give_low_ones_to_flat(double height) {
@@ -194,17 +193,17 @@ class SteepRegions {
     double collect(std::size_t first) {
         region_.assign(1, first);
         rest_[first] = 0;
-        float low = tip_.height[first];
+        float low = cl_.height[first];
         float high = low;
         for (std::size_t k = 0; k < region_.size(); ++k) {
             const std::size_t cell = region_[k];
-            low = std::min(low, tip_.height[cell]);
-            high = std::max(high, tip_.height[cell]);
-            const std::size_t column = cell % tip_.columns;
+            low = std::min(low, cl_.height[cell]);
+            high = std::max(high, cl_.height[cell]);
+            const std::size_t column = cell % cl_.columns;
             if (column > 0) visit(cell - 1);
-            if (column + 1 < tip_.columns) visit(cell + 1);
-            if (cell >= tip_.columns) visit(cell - tip_.columns);
-            if (cell + tip_.columns < tip_.height.size()) visit(cell + tip_.columns);
+            if (column + 1 < cl_.columns) visit(cell + 1);
+            if (cell >= cl_.columns) visit(cell - cl_.columns);
+            if (cell + cl_.columns < cl_.height.size()) visit(cell + cl_.columns);
         }
         return static_cast<double>(high) - static_cast<double>(low);
     }
@@ -214,7 +213,7 @@ class SteepRegions {
         region_.push_back(cell);
     }
 
-    const HeightField& tip_;
+    const HeightField& cl_;
     FinishingMasks& masks_;
     CellMask rest_;  // cells that are of no patch yet
     std::vector<std::size_t> region_;
@@ -227,10 +226,10 @@ double finishing_stepover(const CuttingTool& tool, const FinishingOptions& optio
     return chord_for_scallop(0.5 * tool.diameter, options.scallop);
 }
 
-std::vector<Pass> finishing_passes(const HeightField& tip, const CuttingTool& tool, const FinishingRegion& region,
+std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context) {
     const double stepover = finishing_stepover(tool, options);
-    assert(region.size() == tip.height.size());
+    assert(region.size() == cl.height.size());
     const double radius = 0.5 * tool.diameter;
     const auto report = [&](std::size_t done) {
         context.check_cancelled();
@@ -238,25 +237,25 @@ std::vector<Pass> finishing_passes(const HeightField& tip, const CuttingTool& to
     };
     report(0);
     const double min_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
-    FinishingMasks masks = masks_of(tip, region, radius, min_slope);
+    FinishingMasks masks = masks_of(cl, region, radius, min_slope);
     report(1);
-    SteepRegions(tip, masks).give_low_ones_to_flat(0.5 * stepover);
-    const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / tip.cell));
-    const FinishingRegion wide_region = erode_by_square(region, tip.columns, tip.rows, by);
+    SteepRegions(cl, masks).give_low_ones_to_flat(0.5 * stepover);
+    const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / cl.cell));
+    const FinishingRegion wide_region = erode_by_square(region, cl.columns, cl.rows, by);
     report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * stepover, options.rounding};
     // With the cells at the foot of a wall: squares of waterlines() may begin at them.
-    CellMask steep = SurfaceGrowth(dilate_by_square(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * stepover).mask();
+    CellMask steep = SurfaceGrowth(dilate_by_square(masks.steep, cl.columns, cl.rows, 1), cl, 0.5 * stepover).mask();
     WaterlineFloor foot;
     if (options.floor != nullptr) {
-        foot = foot_of_walls(tip, *options.floor, radius);
+        foot = foot_of_walls(cl, *options.floor, radius);
         std::transform(steep.begin(), steep.end(), foot.cells.begin(), steep.begin(), std::bit_or<>());
     }
-    std::vector<Pass> passes = waterline_passes(tip, {std::move(masks.steep), std::move(steep)},
+    std::vector<Pass> passes = waterline_passes(cl, {std::move(masks.steep), std::move(steep)},
                                                 {wide_region, foot, options.tool}, min_slope, common, context);
     report(3);
-    const CellMask flat = SurfaceGrowth(masks.flat, tip, stepover).mask();
-    std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
+    const CellMask flat = SurfaceGrowth(masks.flat, cl, stepover).mask();
+    std::vector<Pass> rows = raster_passes(cl, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
     report(4);
     return passes;

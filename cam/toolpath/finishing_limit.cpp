@@ -45,20 +45,20 @@ HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool&
     return limit;
 }
 
-void raise_to_limit(HeightField& tip, const HeightField& limit) {
-    assert(limit.cell >= tip.cell);
+void raise_to_limit(HeightField& cl, const HeightField& limit) {
+    assert(limit.cell >= cl.cell);
     constexpr std::array<double, 3> places{-0.5, 0.5, 1.5};  // from the middle of one neighbour to that of the other
-    parallel_for(0, tip.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < tip.columns; ++column) {
-            double least = tip.at(column, row);
+    parallel_for(0, cl.rows, [&](std::size_t row) {
+        for (std::size_t column = 0; column < cl.columns; ++column) {
+            double least = cl.at(column, row);
             for (const double down : places) {
                 for (const double along : places) {
-                    const float other = limit.height_under(tip.cell * (static_cast<double>(column) + along),
-                                                           tip.cell * (static_cast<double>(row) + down));
+                    const float other = limit.height_under(cl.cell * (static_cast<double>(column) + along),
+                                                           cl.cell * (static_cast<double>(row) + down));
                     least = std::max(least, static_cast<double>(other));
                 }
             }
-            tip.height[row * tip.columns + column] = static_cast<float>(least);
+            cl.height[row * cl.columns + column] = static_cast<float>(least);
         }
     });
 }

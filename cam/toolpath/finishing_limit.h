@@ -26,6 +26,6 @@ HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool&
 
 // Raises a CL surface, so that no straight line between the centres of neighbouring cells lies below the limit
 // (tests/cam/toolpath/passes_and_links_test.cpp). O(cells).
-void raise_to_limit(HeightField& tip, const HeightField& limit);
+void raise_to_limit(HeightField& cl, const HeightField& limit);
 
 }  // namespace qchopper

@@ -162,15 +162,15 @@ class ToolpathMaker {
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
         const HeightField& piece = coarse_piece(orientation);
-        HeightField tip = cl_surface(piece, tool, {operation.allowance});
-        raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
-        stay_near_stock(tip, stock_.lowest(orientation, tip), tool, operation.stepdown);
+        HeightField cl = cl_surface(piece, tool, {operation.allowance});
+        raise_to_holder(cl, piece, body_of(tool_index), setup_.piece_in_setup);
+        stay_near_stock(cl, stock_.lowest(orientation, cl), tool, operation.stepdown);
         if (settings_.beside_block) {
             const InProcessStock block(setup_, StockCells::centres);
-            close_beside_stock(tip, block.highest(orientation, tip), *settings_.beside_block);
+            close_beside_stock(cl, block.highest(orientation, cl), *settings_.beside_block);
         }
         MillingSpace space = space_of(piece, operation);
-        space.cl_limit = &tip;
+        space.cl_limit = &cl;
         space.is_limit_between = false;
         RoughingOptions options;
         if (!is_first) {
@@ -207,11 +207,11 @@ class ToolpathMaker {
         operation.rounding = settings_.rounding;
         const double floor_z = finishing_floor(setup_.tool_axis(orientation), 0.5 * tool.diameter);
         auto over_piece = std::make_unique<ToolOverPiece>(target(orientation, settings_.cell, floor_z), tool);
-        HeightField own_tip =
+        HeightField own_cl =
             cl_surface(over_piece->piece, tool, finishing_dilation_options);  // without holder and spindle
-        HeightField tip = finishing_cl_surface(operation, over_piece->piece, own_tip);
-        if (over_stock) raise_to_limit(tip, limit_now(operation));
-        const FinishingRegion region = finishing_region(operation, tip);
+        HeightField cl = finishing_cl_surface(operation, over_piece->piece, own_cl);
+        if (over_stock) raise_to_limit(cl, limit_now(operation));
+        const FinishingRegion region = finishing_region(operation, cl);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
         if (is_empty && !over_stock) is_empty_.insert({tool_index, orientation});
         const bool has_floor = orientation == 0 && kind == OperationKind::finishing && !over_stock;
@@ -219,10 +219,10 @@ class ToolpathMaker {
         const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
         if (has_floor) options.floor = &floor;
         options.tool = &over_piece->tool;
-        std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
-        passes = near_surface(passes, own_tip);
-        own_tip = {};
-        PassesLeft left{std::move(operation), std::move(over_piece), std::move(tip), std::move(passes), left_.takes()};
+        std::vector<Pass> passes = finishing_passes(cl, tool, region, options, context_);
+        passes = near_surface(passes, own_cl);
+        own_cl = {};
+        PassesLeft left{std::move(operation), std::move(over_piece), std::move(cl), std::move(passes), left_.takes()};
         mill(left);
         if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
@@ -239,7 +239,7 @@ class ToolpathMaker {
     struct PassesLeft {
         Operation operation;  // without runs
         std::unique_ptr<ToolOverPiece> over_piece;
-        HeightField tip;
+        HeightField cl;
         std::vector<Pass> passes;
         std::size_t take = 0;  // of RestMaterial; 0: the surface was given back
     };
@@ -258,7 +258,7 @@ class ToolpathMaker {
         const CuttingTool& tool = machine_.tools[left.operation.tool];
         const ToolBody body = body_of(left.operation.tool);
         MillingSpace space = space_of(coarse_piece(left.operation.orientation), left.operation);
-        space.cl_limit = &left.tip;
+        space.cl_limit = &left.cl;
         space.tool = &left.over_piece->tool;
         LinkOptions links;
         links.slack = settings_.path_tolerance;
@@ -303,9 +303,9 @@ class ToolpathMaker {
             for (const Pass& pass : left.passes) length += length_of(pass) < long_blocked ? 0 : length_of(pass);
             if (length < worth_another) continue;
             context_.check_cancelled();
-            HeightField tip = left.tip;
-            raise_to_limit(tip, limit_now(left.operation));
-            const HeightField remaining = remaining_surface(tip, machine_.tools[tool]);
+            HeightField cl = left.cl;
+            raise_to_limit(cl, limit_now(left.operation));
+            const HeightField remaining = remaining_surface(cl, machine_.tools[tool]);
             if (left_.give_back(left.take, remaining, near(left.operation))) is_any = true;
             left.take = 0;
         }
@@ -322,20 +322,20 @@ class ToolpathMaker {
     double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
 
     // A CL surface over the piece, raised for holder and spindle.
-    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField tip) {
+    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField cl) {
         const ToolBody body = body_of(operation.tool);
-        raise_to_holder(tip, piece, body, setup_.piece_in_setup);
+        raise_to_holder(cl, piece, body, setup_.piece_in_setup);
         const double foam_left = operation.scallop + settings_.path_tolerance;
-        raise_to_limit(tip, limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
-                                                finishing_gap(setup_, stock_cell_)));
-        return tip;
+        raise_to_limit(cl, limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
+                                               finishing_gap(setup_, stock_cell_)));
+        return cl;
     }
 
     // What the operation finishes over its CL surface.
-    FinishingRegion finishing_region(const Operation& operation, const HeightField& tip) {
+    FinishingRegion finishing_region(const Operation& operation, const HeightField& cl) {
         const CuttingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
-        return left_.take(remaining_surface(tip, tool), near(operation), operation.stepover,
+        return left_.take(remaining_surface(cl, tool), near(operation), operation.stepover,
                           is_fine ? near(operation) : 0);
     }
 

@@ -236,12 +236,12 @@ struct Pitch {
     std::size_t rows = fine;
 };
 
-Pitch best_pitch(const HeightField& tip, const CellMask& mask, const RasterOptions& options) {
-    const double chord = chord_for_scallop(options.radius, options.scallop) / tip.cell;
+Pitch best_pitch(const HeightField& cl, const CellMask& mask, const RasterOptions& options) {
+    const double chord = chord_for_scallop(options.radius, options.scallop) / cl.cell;
     Pitch best;
     double least = std::numeric_limits<double>::infinity();
     for (const bool is_turned : {false, true}) {
-        const StretchCounts counts = count_stretch(ClSurfaceView(tip, is_turned), mask);
+        const StretchCounts counts = count_stretch(ClSurfaceView(cl, is_turned), mask);
         for (auto rows = static_cast<std::size_t>(std::max(1.0, 0.5 * fine * chord));
              static_cast<double>(rows) <= fine * chord; ++rows) {
             const double density = row_density(counts, static_cast<double>(rows) / fine, chord);
@@ -255,12 +255,12 @@ Pitch best_pitch(const HeightField& tip, const CellMask& mask, const RasterOptio
 
 }  // namespace
 
-std::vector<Pass> raster_passes(const HeightField& tip, const PassCells& cells, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightField& cl, const PassCells& cells, const RasterOptions& options,
                                 const Context& context) {
-    assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
+    assert(cells.wanted.size() == cl.height.size() && cells.allowed.size() == cl.height.size());
     assert(options.scallop > 0 && options.path_tolerance > 0);
-    const Pitch pitch = best_pitch(tip, cells.wanted, options);
-    const ClSurfaceView turned(tip, pitch.is_turned);
+    const Pitch pitch = best_pitch(cl, cells.wanted, options);
+    const ClSurfaceView turned(cl, pitch.is_turned);
     const FineRows view(turned, options.radius);
     context.check_cancelled();
     RowParts parts = Raster(view, cells, options, pitch.rows).parts();

@@ -24,7 +24,7 @@ struct RasterOptions {
 // wanted cells, and the overlap beside them. They run along whichever axis of the map gives the less length. Points lie
 // over the centres of columns of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
 // path_tolerance > 0.
-std::vector<Pass> raster_passes(const HeightField& tip, const PassCells& cells, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightField& cl, const PassCells& cells, const RasterOptions& options,
                                 const Context& context = {});
 
 }  // namespace qchopper

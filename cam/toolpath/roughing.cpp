@@ -35,11 +35,11 @@ class RoughingLevels {
     std::vector<double> heights() const {
         const HeightField core = dilate_by_disc(space_.stock, core_radius_);
         const HeightField whole = dilate_by_disc(space_.centre_stock, flute_radius_);
-        const HeightField& tip = *space_.cl_limit;
+        const HeightField& cl = *space_.cl_limit;
         double top = -std::numeric_limits<double>::infinity();
         double bottom = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < core.height.size(); ++i) {
-            const auto low = static_cast<double>(tip.height[i]);
+            const auto low = static_cast<double>(cl.height[i]);
             const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
             if (!is_high && !(static_cast<double>(core.height[i]) > low + min_above())) continue;
             const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
@@ -57,10 +57,10 @@ class RoughingLevels {
         for (std::size_t i = 0; i < core.height.size(); ++i) {
             const double high = std::max(static_cast<double>(core.height[i]) - min_above(),
                                          static_cast<double>(whole.height[i]) - highest_skin());
-            if (!(high > static_cast<double>(tip.height[i]))) continue;
+            if (!(high > static_cast<double>(cl.height[i]))) continue;
             // One level more to both sides: heights are rounded.
             ++begins[level_of(high)];
-            --begins[std::min(level_of(static_cast<double>(tip.height[i])) + 2, begins.size() - 1)];
+            --begins[std::min(level_of(static_cast<double>(cl.height[i])) + 2, begins.size() - 1)];
         }
         std::vector<double> heights;
         std::ptrdiff_t cells = 0;

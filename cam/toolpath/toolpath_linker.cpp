@@ -88,18 +88,18 @@ double ToolpathLinker::over_flute(Vec3 at) const {
 // Across an edge the limit between the centres of cells is no straight line: there the tool tells.
 double ToolpathLinker::limit_at(Vec3 p) const {
     if (!space_->is_limit_between) return static_cast<double>(space_->cl_limit->height_under(p.x, p.y));
-    const HeightField& tip = *space_->cl_limit;
-    const BilinearCell around(tip, p.x, p.y);
-    const double limit = around.height(tip);
+    const HeightField& cl = *space_->cl_limit;
+    const BilinearCell around(cl, p.x, p.y);
+    const double limit = around.height(cl);
     if (space_->tool == nullptr) return limit;
-    const auto height_of = [&](std::size_t cell) { return static_cast<double>(tip.height[cell]); };
-    const auto is_lower = [&](std::size_t a, std::size_t b) { return tip.height[a] < tip.height[b]; };
+    const auto height_of = [&](std::size_t cell) { return static_cast<double>(cl.height[cell]); };
+    const auto is_lower = [&](std::size_t a, std::size_t b) { return cl.height[a] < cl.height[b]; };
     const auto [lowest, highest] = std::minmax_element(around.cells.begin(), around.cells.end(), is_lower);
     const double rise = height_of(*highest) - height_of(*lowest);
-    if (height_of(*highest) <= p.z || rise <= edge_rise(0.5 * tool_->diameter, tip.cell)) return limit;
+    if (height_of(*highest) <= p.z || rise <= edge_rise(0.5 * tool_->diameter, cl.cell)) return limit;
     const double of_tool = space_->tool->height(p.x, p.y);
     const bool is_raised = std::any_of(around.cells.begin(), around.cells.end(), [&](std::size_t cell) {
-        return height_of(cell) > p.z && !is_of_tool(tip, *space_->tool, cell);
+        return height_of(cell) > p.z && !is_of_tool(cl, *space_->tool, cell);
     });
     return is_raised ? std::max(limit, of_tool) : of_tool;
 }

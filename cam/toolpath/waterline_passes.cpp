@@ -25,32 +25,32 @@ constexpr std::size_t halvings = 4;  // levels between two of the coarsest ones,
 // The CL surface between the centres of cells.
 class SmoothClSurface {
  public:
-    explicit SmoothClSurface(const HeightField& tip) : tip_(tip) {}
+    explicit SmoothClSurface(const HeightField& cl) : cl_(cl) {}
 
-    double height(Point2 p) const { return BilinearCell(tip_, p.x, p.y).height(tip_); }
+    double height(Point2 p) const { return BilinearCell(cl_, p.x, p.y).height(cl_); }
 
     Point2 gradient(Point2 p) const {
-        const double c = tip_.cell;
+        const double c = cl_.cell;
         return {(height({p.x + c, p.y}) - height({p.x - c, p.y})) / (2 * c),
                 (height({p.x, p.y + c}) - height({p.x, p.y - c})) / (2 * c)};
     }
 
     std::size_t cell(Point2 p) const {
         const auto index = [&](double x, std::size_t count) {
-            return static_cast<std::size_t>(std::clamp(std::floor(x / tip_.cell), 0.0, static_cast<double>(count - 1)));
+            return static_cast<std::size_t>(std::clamp(std::floor(x / cl_.cell), 0.0, static_cast<double>(count - 1)));
         };
-        return index(p.y, tip_.rows) * tip_.columns + index(p.x, tip_.columns);
+        return index(p.y, cl_.rows) * cl_.columns + index(p.x, cl_.columns);
     }
 
  private:
-    const HeightField& tip_;
+    const HeightField& cl_;
 };
 
 // Decides where a level between two others is needed.
 class WaterlineNeed {
  public:
-    WaterlineNeed(const HeightField& tip, const CellMask& mask, const RasterOptions& options)
-        : smooth_(tip), mask_(mask), options_(options), cell_(tip.cell) {}
+    WaterlineNeed(const HeightField& cl, const CellMask& mask, const RasterOptions& options)
+        : smooth_(cl), mask_(mask), options_(options), cell_(cl.cell) {}
 
     // At a point of a level whose neighbours are `gap` above and below.
     bool holds(Point2 p, double z, double gap) const {
@@ -138,8 +138,8 @@ std::vector<Waterline> marked_parts(const Waterline& line, const std::vector<std
 
 class WaterlineGates {
  public:
-    WaterlineGates(const HeightField& tip, double tolerance)
-        : tip_(tip), smooth_(tip), tolerance_(tolerance), cell_(tip.cell) {}
+    WaterlineGates(const HeightField& cl, double tolerance)
+        : cl_(cl), smooth_(cl), tolerance_(tolerance), cell_(cl.cell) {}
 
     std::vector<Gate> of(const Waterline& line, double z) const {
         const auto count = static_cast<std::ptrdiff_t>(line.points.size());
@@ -183,12 +183,12 @@ class WaterlineGates {
         // A cell farther, because next to an edge the interpolated surface is too high; and at the edge itself not even
         // interpolated.
         const Point2 far = beside(width + cell_);
-        const double rise = point.is_at_found_edge ? tip_.height[smooth_.cell(far)] : smooth_.height(far);
+        const double rise = point.is_at_found_edge ? cl_.height[smooth_.cell(far)] : smooth_.height(far);
         if (rise > z) width = 0.01 * tolerance_;
         return {at, beside(width)};
     }
 
-    const HeightField& tip_;
+    const HeightField& cl_;
     SmoothClSurface smooth_;
     double tolerance_;
     double cell_;
@@ -222,10 +222,10 @@ std::vector<Waterline> parts_where(const std::vector<Waterline>& lines, double o
     return parts;
 }
 
-double lowest_of(const HeightField& tip, const CellMask& mask) {
+double lowest_of(const HeightField& cl, const CellMask& mask) {
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < mask.size(); ++i) {
-        if (mask[i] != 0) lowest = std::min(lowest, static_cast<double>(tip.height[i]));
+        if (mask[i] != 0) lowest = std::min(lowest, static_cast<double>(cl.height[i]));
     }
     return lowest;
 }
@@ -234,8 +234,8 @@ double lowest_of(const HeightField& tip, const CellMask& mask) {
 // much higher.
 class WaterlineContact {
  public:
-    WaterlineContact(const HeightField& tip, const WaterlineGround& ground, double radius, double slack)
-        : smooth_(tip), ground_(ground), radius_(radius), slack_(slack) {}
+    WaterlineContact(const HeightField& cl, const WaterlineGround& ground, double radius, double slack)
+        : smooth_(cl), ground_(ground), radius_(radius), slack_(slack) {}
 
     bool holds(Point2 p, double z) const {
         const WaterlineFloor& floor = ground_.floor;
@@ -255,29 +255,29 @@ class WaterlineContact {
 
 }  // namespace
 
-std::vector<Pass> waterline_passes(const HeightField& tip, const PassCells& cells, const WaterlineGround& ground,
+std::vector<Pass> waterline_passes(const HeightField& cl, const PassCells& cells, const WaterlineGround& ground,
                                    double min_slope, const RasterOptions& options, const Context& context) {
-    assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
+    assert(cells.wanted.size() == cl.height.size() && cells.allowed.size() == cl.height.size());
     assert(options.scallop > 0 && options.path_tolerance > 0 && min_slope > 0);
-    const double lowest = lowest_of(tip, cells.allowed);
+    const double lowest = lowest_of(cl, cells.allowed);
     if (!std::isfinite(lowest)) return {};
     const double sine = min_slope / std::hypot(1, min_slope);
     const double step = sine * chord_for_scallop(options.radius, options.scallop);
     // A little above the lowest cell, where single precision may leave the floor uneven.
     const Levels levels{lowest + 1e-3, step / halvings};
-    const double jump = edge_rise(options.radius, tip.cell);
-    const WaterlineContact contact(tip, ground, options.radius, step);
+    const double jump = edge_rise(options.radius, cl.cell);
+    const WaterlineContact contact(cl, ground, options.radius, step);
     std::optional<EdgeRises> found;
-    if (ground.tool != nullptr) found.emplace(tip, cells.allowed, jump, *ground.tool);
+    if (ground.tool != nullptr) found.emplace(cl, cells.allowed, jump, *ground.tool);
     const EdgeRises* edges = found ? &*found : nullptr;
     std::vector<Waterline> lines =
-        parts_where(waterlines(tip, cells.allowed, levels, halvings, 0, jump, edges), options.overlap,
+        parts_where(waterlines(cl, cells.allowed, levels, halvings, 0, jump, edges), options.overlap,
                     [&](Point2 p, std::size_t level) { return contact.holds(p, levels.height(level)); });
-    const WaterlineNeed need(tip, cells.wanted, options);
+    const WaterlineNeed need(cl, cells.wanted, options);
     for (std::size_t gap = halvings / 2; gap > 0; gap /= 2) {
         context.check_cancelled();
         const double distance_up = levels.step * static_cast<double>(gap);
-        std::vector<Waterline> between = parts_where(waterlines(tip, cells.allowed, levels, 2 * gap, gap, jump, edges),
+        std::vector<Waterline> between = parts_where(waterlines(cl, cells.allowed, levels, 2 * gap, gap, jump, edges),
                                                      options.overlap, [&](Point2 p, std::size_t level) {
                                                          const double z = levels.height(level);
                                                          return need.holds(p, z, distance_up) && contact.holds(p, z);
@@ -288,7 +288,7 @@ std::vector<Pass> waterline_passes(const HeightField& tip, const PassCells& cell
     std::stable_sort(lines.begin(), lines.end(),
                      [](const Waterline& a, const Waterline& b) { return a.level > b.level; });
     context.check_cancelled();
-    const WaterlineGates gates(tip, options.path_tolerance);
+    const WaterlineGates gates(cl, options.path_tolerance);
     std::vector<Pass> passes(lines.size());
     parallel_for(0, lines.size(), [&](std::size_t i) {
         passes[i] = pass_along(lines[i], levels.height(lines[i].level), gates, options);

@@ -40,14 +40,14 @@ struct WaterlineRange {
 
 class SquareLines {
  public:
-    SquareLines(const HeightField& tip, const WaterlineRange& range) : tip_(tip), range_(range) {}
+    SquareLines(const HeightField& cl, const WaterlineRange& range) : cl_(cl), range_(range) {}
 
     void add(LinePieces& pieces, std::size_t column, std::size_t row) const {
-        const std::size_t a = row * tip_.columns + column;
-        const std::array<std::size_t, 4> cell{a, a + 1, a + 1 + tip_.columns, a + tip_.columns};
+        const std::size_t a = row * cl_.columns + column;
+        const std::array<std::size_t, 4> cell{a, a + 1, a + 1 + cl_.columns, a + cl_.columns};
         const std::array<std::uint64_t, 4> side{2 * cell[0], 2 * cell[1] + 1, 2 * cell[3], 2 * cell[0] + 1};
         std::array<double, 4> z;
-        for (std::size_t k = 0; k < 4; ++k) z[k] = static_cast<double>(tip_.height[cell[k]]);
+        for (std::size_t k = 0; k < 4; ++k) z[k] = static_cast<double>(cl_.height[cell[k]]);
         const double high = *std::max_element(z.begin(), z.end());
         for (std::size_t n = range_.not_below(*std::min_element(z.begin(), z.end())); range_.levels.height(n) < high;
              n += range_.divisor) {
@@ -63,14 +63,14 @@ class SquareLines {
     }
 
  private:
-    const HeightField& tip_;
+    const HeightField& cl_;
     const WaterlineRange& range_;
 };
 
 class LineJoiner {
  public:
-    LineJoiner(const HeightField& tip, double z, double jump, const EdgeRises* edges)
-        : tip_(tip), z_(z), jump_(jump), edges_(edges) {}
+    LineJoiner(const HeightField& cl, double z, double jump, const EdgeRises* edges)
+        : cl_(cl), z_(z), jump_(jump), edges_(edges) {}
 
     // Of the pieces of one level, sorted by where they begin.
     void join(std::size_t level, const LinePiece* first, const LinePiece* end, std::vector<Waterline>& lines) const {
@@ -109,16 +109,16 @@ class LineJoiner {
     }
 
     WaterlinePoint crossing(std::uint64_t side) const {
-        const CellSide ends(tip_, side);
-        const double a = static_cast<double>(tip_.height[ends.cell]);
-        const double b = static_cast<double>(tip_.height[ends.next]);
+        const CellSide ends(cl_, side);
+        const double a = static_cast<double>(cl_.height[ends.cell]);
+        const double b = static_cast<double>(cl_.height[ends.next]);
         if (std::abs(b - a) <= jump_) return {ends.at((z_ - a) / (b - a))};
         const std::optional<double> share = edges_ != nullptr ? edges_->share_below(side, z_) : std::nullopt;
         const double from_low = share.value_or(0);
         return {ends.at(a < b ? from_low : 1 - from_low), !share, share.has_value()};
     }
 
-    const HeightField& tip_;
+    const HeightField& cl_;
     double z_;
     double jump_;
     const EdgeRises* edges_;
@@ -126,16 +126,16 @@ class LineJoiner {
 
 }  // namespace
 
-std::vector<Waterline> waterlines(const HeightField& tip, const CellMask& mask, const Levels& levels,
+std::vector<Waterline> waterlines(const HeightField& cl, const CellMask& mask, const Levels& levels,
                                   std::size_t divisor, std::size_t remainder, double jump, const EdgeRises* edges) {
-    assert(levels.step > 0 && remainder < divisor && mask.size() == tip.height.size());
-    if (tip.rows < 2 || tip.columns < 2) return {};
+    assert(levels.step > 0 && remainder < divisor && mask.size() == cl.height.size());
+    if (cl.rows < 2 || cl.columns < 2) return {};
     const WaterlineRange range{levels, divisor, remainder};
-    const SquareLines squares(tip, range);
-    std::vector<LinePieces> by_row(tip.rows - 1);
+    const SquareLines squares(cl, range);
+    std::vector<LinePieces> by_row(cl.rows - 1);
     parallel_for(0, by_row.size(), [&](std::size_t row) {
-        for (std::size_t c = 0; c + 1 < tip.columns; ++c) {
-            if (mask[row * tip.columns + c] != 0) squares.add(by_row[row], c, row);
+        for (std::size_t c = 0; c + 1 < cl.columns; ++c) {
+            if (mask[row * cl.columns + c] != 0) squares.add(by_row[row], c, row);
         }
     });
     LinePieces pieces;
@@ -154,7 +154,7 @@ std::vector<Waterline> waterlines(const HeightField& tip, const CellMask& mask, 
     std::vector<std::vector<Waterline>> by_level(begins.size() - 1);
     parallel_for(0, by_level.size(), [&](std::size_t i) {
         const std::size_t level = pieces[begins[i]].level;
-        LineJoiner(tip, levels.height(level), jump, edges)
+        LineJoiner(cl, levels.height(level), jump, edges)
             .join(level, &pieces[begins[i]], pieces.data() + begins[i + 1], by_level[i]);
     });
     std::vector<Waterline> lines;

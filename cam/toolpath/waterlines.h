@@ -40,7 +40,7 @@ struct Levels {
 // The lines of all levels whose number is `remainder` modulo `divisor`, where a square of four centres begins at a cell
 // of the mask; by level, and otherwise in an order that depends on the map alone. Preconditions: no level of the
 // surface in the mask is below the first one, step > 0, divisor > remainder. O(squares + crossings * log(crossings)).
-std::vector<Waterline> waterlines(const HeightField& tip, const CellMask& mask, const Levels& levels,
+std::vector<Waterline> waterlines(const HeightField& cl, const CellMask& mask, const Levels& levels,
                                   std::size_t divisor, std::size_t remainder, double jump,
                                   const EdgeRises* edges = nullptr);
 
