@@ -96,7 +96,7 @@ void measure_map(const TriangleMesh& mesh, const std::string& name, Figures& fig
         return stock_points;
     });
     const HeightField wide = coarser(map, ball_radius / 3.5 / cell);
-    step("closing by the ball, for the residue",
+    step("closing by the ball, for the rest material",
          [&] { return closed_by_ball(coarser(map, ball_radius / 3.5 / cell), ball_radius); });
     const HeightField closed = closed_by_ball(wide, ball_radius);
     step("foam above the closing taken away", [&] {

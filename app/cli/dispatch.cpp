@@ -17,7 +17,7 @@ int show(const DispatchReport& report, const std::string& schema, Terminal& term
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     const DispatchAnswer answer = dispatch_project(arguments, operator_at_terminal(), terminal.context());
-    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, "qchopper-dispatch-1",
+    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, "qchopper-dispatch-2",
                 terminal);
 }
 

@@ -7,7 +7,7 @@ namespace qchopper {
 int run(const DryRunArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const DryRunAnswer answer = dry_run(arguments, terminal.context());
-    return show({answer.handed, answer.wanted, true, {}, answer.next}, "qchopper-dry-run-1", terminal);
+    return show({answer.handed, answer.wanted, true, {}, answer.next}, "qchopper-dry-run-2", terminal);
 }
 
 }  // namespace qchopper

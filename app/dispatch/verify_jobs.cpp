@@ -130,7 +130,7 @@ std::optional<ProofFinding> fault_against_setup(const ReadJob& job, const Setup&
     const std::string text = "the setup of the job is not that of the project for piece " + job.piece;
     const std::size_t directions = job.setup.access.orientations.size();
     if (directions != own.access.orientations.size()) {
-        return finding("other_setup", text + ": " + counted(directions, "direction") + " instead of " +
+        return finding("other_setup", text + ": " + counted(directions, "orientation") + " instead of " +
                                           std::to_string(own.access.orientations.size()));
     }
     if (job.setup.tools != own.tools) return finding("other_setup", text + ": other tools may be used");

@@ -30,8 +30,8 @@ void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
         throw InputError(InputFault::use, "--simplify and --max-faces exclude each other", "pass one of them");
     }
-    if (a.max_deviation_mm && !a.max_faces) {
-        throw InputError(InputFault::use, "--max-deviation limits what --max-faces does", "pass --max-faces N too");
+    if (a.max_distance_mm && !a.max_faces) {
+        throw InputError(InputFault::use, "--max-distance limits what --max-faces does", "pass --max-faces N too");
     }
     if (a.holes && (a.simplify_mm || a.max_faces)) {
         throw InputError(InputFault::use, "--holes excludes --simplify and --max-faces", "export twice");
@@ -155,20 +155,20 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
 
 // What --max-faces makes of a piece may not be another shape.
 void check_shape(const ExportedPiece& row, double piece_diagonal, const ExportRequest& request) {
-    const double limit = request.max_deviation_mm.value_or(max_deviation_share * piece_diagonal);
+    const double limit = request.max_distance_mm.value_or(max_distance_share * piece_diagonal);
     const SimplifyReport& made = row.simplified;
     std::string faults;
     if (made.deviation() > limit) {
         faults = "moves the surface of piece " + row.piece.name + " by up to " + significant(made.deviation(), 3) +
                  " mm, more than " + significant(limit, 3) + " mm" +
-                 (request.max_deviation_mm ? "" : " (1 % of its diagonal)");
+                 (request.max_distance_mm ? "" : " (1 % of its diagonal)");
     }
     if (made.crossings > 0) {
         faults += (faults.empty() ? "makes " : ", and makes ") + counted(made.crossings, "pair") +
                   " of faces of piece " + row.piece.name + " run through each other";
     }
     if (faults.empty()) return;
-    const double usual = std::min(limit, max_deviation_share * piece_diagonal);
+    const double usual = std::min(limit, max_distance_share * piece_diagonal);
     throw InputError(
         InputFault::use, "--max-faces " + std::to_string(*request.max_faces) + " " + faults,
         "allow more faces; or pass --simplify " + significant(usual, 2) + " for as few as that deviation allows");

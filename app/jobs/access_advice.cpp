@@ -18,7 +18,7 @@ constexpr double min_share = 0.001;
 
 // What is out of reach for other reasons than the holder and the tool's radius, split by what would reach it.
 struct Seen {
-    double few_directions = 0;
+    double few_orientations = 0;
     double tilt = 0;
     double inside = 0;
 };
@@ -48,8 +48,9 @@ std::string holder_remedy(const AdviceInput& input, const Cell& cell) {
 std::string directions_remedy(const AdviceInput& input, const Cell&) {
     const std::size_t most = input.max_directions;
     // Where fewer were chosen than allowed, a further one gains too little to be worth a program of its own.
-    if (input.access.orientations.size() < most) return "finishing by hand: no further direction gains half a percent";
-    return "more directions: " + input.setup_command + " --directions " + std::to_string(most + 4);
+    if (input.access.orientations.size() < most)
+        return "finishing by hand: no further orientation gains half a percent";
+    return "more tool orientations: " + input.setup_command + " --orientations " + std::to_string(most + 4);
 }
 
 std::string tilt_remedy(const AdviceInput& input, const Cell&) {
@@ -75,7 +76,8 @@ struct AdviceKind {
 
 constexpr std::array<AdviceKind, 5> kinds{{
     {AccessFault::holder, "holder", "because of the holder", holder_remedy},
-    {AccessFault::few_directions, "few_directions", "reached by directions that are not chosen", directions_remedy},
+    {AccessFault::few_orientations, "few_orientations", "reached in orientations that are not chosen",
+     directions_remedy},
     {AccessFault::tilt, "tilt", "hidden or steep from all directions that can be held", tilt_remedy},
     {AccessFault::narrow, "narrow", "too narrow", narrow_remedy},
     {AccessFault::inside, "inside", "inside, where no direction at all reaches", inside_remedy},
@@ -86,8 +88,8 @@ double share_of(AccessFault fault, const AdviceInput& input) {
     switch (fault) {
         case AccessFault::holder:
             return r.area_mm2 > 0 ? r.holder_mm2 / r.area_mm2 : 0;
-        case AccessFault::few_directions:
-            return seen(input).few_directions;
+        case AccessFault::few_orientations:
+            return seen(input).few_orientations;
         case AccessFault::tilt:
             return seen(input).tilt;
         case AccessFault::narrow:

@@ -15,14 +15,14 @@
 namespace qchopper {
 
 enum class AccessFault {
-    holder,          // in sight, but holder or spindle would touch something
-    few_directions,  // reached with all directions that can be held, not with the chosen ones
-    tilt,            // hidden or steep from all directions within the largest tilt
-    narrow,          // the smallest tool does not fit; only where that counts
-    inside           // no direction of the whole sphere reaches it
+    holder,            // in sight, but holder or spindle would touch something
+    few_orientations,  // reached with all directions that can be held, not with the chosen ones
+    tilt,              // hidden or steep from all directions within the largest tilt
+    narrow,            // the smallest tool does not fit; only where that counts
+    inside             // no direction of the whole sphere reaches it
 };
 
-const char* to_word(AccessFault fault);  // "holder", "few_directions", "tilt", "narrow", "inside"
+const char* to_word(AccessFault fault);  // "holder", "few_orientations", "tilt", "narrow", "inside"
 
 struct AccessAdvice {
     AccessFault fault = AccessFault::tilt;

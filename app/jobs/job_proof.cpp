@@ -150,8 +150,8 @@ std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool has_or
         {"within_tolerance_percent", "within tolerance, of the reachable surface", percent * report.share_within(), "%",
          2},
         {"reachable_percent", "reachable surface", percent * report.share_reachable(), "%", 1},
-        {"given_up_percent", "given up, of the surface, by tools and directions left out", points(left.given_up_mm2()),
-         "%", 2},
+        {"given_up_percent", "given up, of the surface, by tools and orientations left out",
+         points(left.given_up_mm2()), "%", 2},
         {"given_up_cm2", "surface given up by them", left.given_up_mm2() / 100, "cm2", 1}};
     if (has_order) {
         figures.push_back({"not_allowed_percent", "given up, of the surface, by order of the operator",
@@ -189,8 +189,8 @@ std::vector<ProofFigure> figures_of(const ReplayReport& report, const ReplayScen
             {"time_s", "time", report.time.seconds, "s", 0},
             {"cell_mm", "cells of the replay", cell, "mm", 2}});
     if (program.moves_left_out.length_mm > 0) {
-        append({{"moves_left_out_mm", "cuts left out, which no hold of the arm carries",
-                 program.moves_left_out.length_mm, "mm", 0}});
+        append({{"moves_left_out_mm", "cuts left out, which no arm posture reaches", program.moves_left_out.length_mm,
+                 "mm", 0}});
     }
     append(hole_figures(report.milling.holes));
     return figures;
@@ -211,8 +211,8 @@ void check_left_out(const ReplayScene& scene, const JobProgram& program, JobProo
             if (tools[tool].shape != ToolShape::ball || is_stated(number, d)) continue;
             if (std::find(used.begin(), used.end(), tool) != used.end()) continue;
             add(proof, "left_out", "", 0,
-                "the program does not use tool " + std::to_string(number) + " along direction " +
-                    std::to_string(d + 1) + ", and the manifest does not say why");
+                "the program does not use tool " + std::to_string(number) + " in orientation " + std::to_string(d + 1) +
+                    ", and the manifest does not say why");
         }
     }
 }

@@ -185,7 +185,7 @@ std::vector<std::string> warnings(const Explanation& e) {
 std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (const std::size_t i : e.listed) best.push_back(to_json(e.ranked[i]));
-    Json json{{"schema", "qchopper-explain-2"},
+    Json json{{"schema", "qchopper-explain-3"},
               {"cut", e.cut.number},
               {"piece", e.cut.piece},
               {"pieces", e.cut.pieces},
@@ -196,11 +196,11 @@ std::string document(const Explanation& e, const Project& project, const std::st
               {"place", e.place ? Json(*e.place + 1) : Json()},
               {"candidates", e.ranked.size()},
               {"best", best},
-              {"verdict", describe(e)},
+              {"explanation", describe(e)},
               {"picture", picture}};
     if (e.opened) {
         json["opened"] = json_of(*e.opened);
-        json["most_judged"] = e.max_judged;
+        json["max_judged_planes"] = e.max_judged;
     }
     add_scan(json, project);
     return text_of(json);

@@ -22,7 +22,7 @@ std::vector<std::string> warnings(const Explanation& explanation);
 // `project` is its name in the title.
 Plot plot(const Explanation& explanation, const std::string& project);
 
-// The document qchopper-explain-2, with the discarded pieces of the project; `picture` is the path of the plot.
+// The document qchopper-explain-3, with the discarded pieces of the project; `picture` is the path of the plot.
 std::string document(const Explanation& explanation, const Project& project, const std::string& picture);
 
 }  // namespace qchopper

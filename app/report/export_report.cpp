@@ -35,7 +35,7 @@ std::vector<std::string> warnings(const ExportedProject& exported, const ExportR
 
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project) {
     std::vector<std::vector<std::string>> cells{{"piece", "faces"}};
-    if (exported.is_simplified) cells[0].insert(cells[0].end(), {"before", "farthest (mm)"});
+    if (exported.is_simplified) cells[0].insert(cells[0].end(), {"before", "distance (mm)"});
     cells[0].push_back("file");
     for (const ExportedPiece& row : exported.pieces) {
         cells.push_back({row.piece.name, with_commas(row.piece.mesh->triangles.size())});

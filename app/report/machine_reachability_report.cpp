@@ -3,25 +3,17 @@
 #include "app/report/machine_reachability_report.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/report/columns.h"
+#include "app/report/report_json.h"
 #include "base/text.h"
+#include "base/units.h"
+#include "cam/job/setup_fields.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
-
-Json angles_json(const BlockPlacement& placement) {
-    Json angles = Json::array();
-    for (const double angle : placement.table_angles) angles.push_back(degrees(angle));
-    return angles;
-}
 
 Json tightest_json(const ReachabilityMargin& margin) {
     const CheckRule& rule = rule_of(margin.check);
@@ -65,18 +57,13 @@ Json json_of(const MachineReachability& reachability) {
     if (!reachability.is_arm_checked) return {{"arm_checked", false}, {"holds", true}};
     Json margins = Json::object();
     for (const ReachabilityMargin& margin : reachability.margins) margins[rule_of(margin.check).key] = margin.margin;
-    const BlockPlacement& placement = reachability.placement;
     return {{"arm_checked", true},
             {"holds", reachability.holds()},
-            {"cure", describe(reachability.remedy)},
+            {"remedy", to_word(reachability.remedy)},
             {"tightest", tightest_json(reachability.tightest())},
             {"margins", margins},
             {"poses", reachability.poses},
-            {"placement",
-             {{"x_mm", placement.x},
-              {"y_mm", placement.y},
-              {"turn_deg", degrees(placement.turn)},
-              {"table_angles_deg", angles_json(placement)}}}};
+            {"placement", json_of(reachability.placement)}};
 }
 
 }  // namespace qchopper

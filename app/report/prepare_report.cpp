@@ -38,7 +38,7 @@ Json cut_json(const Cut& cut) {
 }
 
 Json advice_json(const AccessAdvice& a) {
-    return {{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.remedies}};
+    return {{"kind", to_word(a.fault)}, {"share", a.share}, {"remedies", a.remedies}};
 }
 
 // ": 3.01 % because of the holder (a longer tool ...), 0.53 % ...": the two largest parts.
@@ -67,24 +67,18 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
     const Setup& s = piece.piece_setup.setup();
     Json margins;
     for (const Margin& m : piece.piece_setup.stock_fit.margins) margins[m.name] = m.mm;
-    return {{"name", piece.name},
-            {"faces", piece.faces},
-            {"volume_mm3", piece.volume_mm3},
-            {"box_mm", json_of(s.box.size())},
-            {"block", cell.stock[s.block.stock].name},
-            {"block_mm", json_of(s.block.size)},
-            {"base_number", s.base_number},
-            {"base_cut", s.base ? Json(*s.base) : Json()},
-            {"base", s.base_description},
-            {"undercut", s.undercut},
-            {"workholding", workholding_json(s)},
-            {"reach", access_json(s.access)},
-            {"fits", piece.piece_setup.fits()},
-            {"margins_mm", margins},
-            {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
-            {"out_of_reach", list_of(piece.advice, advice_json)},
-            {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
-            {"program", program_json(piece)}};
+    Json json{{"name", piece.name},
+              {"faces", piece.faces},
+              {"volume_mm3", piece.volume_mm3},
+              {"box_mm", json_of(s.box.size())}};
+    add_setup(json, s, cell);
+    json.update({{"fits", piece.piece_setup.fits()},
+                 {"margins_mm", margins},
+                 {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
+                 {"out_of_reach", list_of(piece.advice, advice_json)},
+                 {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
+                 {"program", program_json(piece)}});
+    return json;
 }
 
 }  // namespace
@@ -117,7 +111,7 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
 }
 
 std::vector<std::string> table(const PreparedProject& prepared) {
-    std::vector<std::vector<std::string>> rows{{"piece", "faces", "volume", "box mm", "block", "base", "directions",
+    std::vector<std::vector<std::string>> rows{{"piece", "faces", "volume", "box mm", "block", "base", "orientations",
                                                 "unreachable", "foam", "depth mm", "workholding", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.piece_setup.setup();
@@ -134,7 +128,8 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     if (prepared.has_programs()) rows.front().emplace_back("program");
     std::vector<std::string> lines = columns(rows);
     lines.emplace_back(
-        "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
+        "unreachable: of the surface without the base, in the tool orientations of the setup; foam: what they leave, "
+        "and "
         "its depth; workholding: whether table, foam and base hold the piece while it is carved.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     for (const std::string& line : joint_lines(prepared.joints)) lines.push_back(line);
@@ -157,7 +152,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
 std::string document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
     const auto piece_in_cell = [&](const PieceReport& piece) { return piece_json(piece, prepared.cell); };
-    Json json{{"schema", "qchopper-prepare-4"},
+    Json json{{"schema", "qchopper-prepare-5"},
               {"project", prepared.folder.string()},
               {"scan",
                {{"path", p.scan.path.string()},
@@ -172,7 +167,7 @@ std::string document(const PreparedProject& prepared) {
               {"max_unreachable", prepared.max_unreachable},
               {"arm_checked", prepared.cell.machine.has_value()},
               {"cuts", list_of(p.cuts, cut_json)},
-              {"verdicts", json_of(p.review.value_or(SetupReview()).cuts)},
+              {"reviews", json_of(p.review.value_or(SetupReview()).cuts)},
               {"pieces", list_of(prepared.pieces, piece_in_cell)},
               {"joints", joints_json(prepared.joints)},
               {"assembly", assembly_json(prepared.joints)},

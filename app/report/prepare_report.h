@@ -13,7 +13,7 @@ namespace qchopper {
 std::vector<std::string> warnings(const PreparedProject& prepared);
 // A row per piece, then the fragments, the discarded pieces and the next command.
 std::vector<std::string> table(const PreparedProject& prepared);
-// The document qchopper-prepare-4 (tests/app/cli/json_test.cpp).
+// The document qchopper-prepare-5 (tests/app/cli/json_test.cpp).
 std::string document(const PreparedProject& prepared);
 
 }  // namespace qchopper

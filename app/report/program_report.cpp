@@ -66,7 +66,7 @@ Json figures_json(const ProofResult& proof) {
 }
 
 Json program_json(const PieceReport& piece) {
-    if (piece.verdicts.empty()) return {{"parts", 0}, {"none_because", piece.no_program_because}};
+    if (piece.verdicts.empty()) return {{"parts", 0}, {"no_program_because", piece.no_program_because}};
     return {{"parts", piece.verdicts.size()},
             {"proven", piece.is_proven()},
             {"time_s", piece.time_s},

@@ -41,21 +41,21 @@ Json hole_json(const OpenHole& hole) {
 }
 
 Json step_json(const RepairStep& step) {
-    return {{"step", step.name}, {"count", step.count}, {"words", step.words}};
+    return {{"step", step.name}, {"count", step.count}, {"description", step.words}};
 }
 
 Json counts(const RepairReport& r) {
     return {{"points_welded", r.welded},
             {"faces_collapsed", r.collapsed},
             {"points_unused", r.unreferenced},
-            {"border_points_welded", r.borders_snapped},
+            {"border_points_snapped", r.borders_snapped},
             {"border_moved_mm", r.border_moved_mm},
             {"faces_repeated", r.repeated},
             {"faces_of_doubled_components", r.of_doubled_components},
             {"edges_split", r.edges_split},
             {"edges_cut", r.edges_cut},
             {"points_copied", r.points_copied},
-            {"faces_turned", r.faces_turned},
+            {"faces_reoriented", r.faces_reoriented},
             {"edges_stitched", r.stitched},
             {"degenerate_removed", r.degenerate_removed},
             {"degenerate_left", r.degenerate_left},
@@ -68,7 +68,7 @@ Json counts(const RepairReport& r) {
             {"open_component_faces", r.open_component_faces},
             {"shells", r.shells},
             {"cavities", r.cavities},
-            {"shells_turned", r.shells_turned},
+            {"shells_reoriented", r.shells_reoriented},
             {"shells_overlapping", r.overlapping},
             {"fragments", r.fragments},
             {"fragment_faces", r.fragment_faces},
@@ -93,7 +93,7 @@ Json pen_grooves(const RepairReport& r) {
             {"points_moved", r.pen_grooves->points_moved},
             {"area_mm2", r.pen_grooves->area_mm2},
             {"length_mm", r.pen_grooves->length_mm},
-            {"most_depth_mm", r.pen_grooves->max_depth},
+            {"max_depth_mm", r.pen_grooves->max_depth},
             {"mean_depth_mm", r.pen_grooves->mean_depth}};
 }
 
@@ -119,7 +119,7 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairRequest& re
 
 std::string document(const RepairedScan& scan, const RepairRequest& request) {
     const RepairReport& r = scan.report;
-    Json json{{"schema", "qchopper-repair-2"},
+    Json json{{"schema", "qchopper-repair-3"},
               {"file", request.scan.string()},
               {"out", request.out.string()},
               {"format", name_of(scan.format)},
@@ -145,10 +145,10 @@ std::string document(const RepairedScan& scan, const RepairRequest& request) {
               {"solid", r.is_solid()},
               {"volume", r.volume}};
     if (r.deviation) {
-        json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
-                             {"largest", r.deviation->largest().mm},
-                             {"from_scan", one_sided_distance(r.deviation->from_scan)},
-                             {"from_result", one_sided_distance(r.deviation->from_result)}};
+        json["hausdorff_distance"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
+                                      {"largest", r.deviation->largest().mm},
+                                      {"from_scan", one_sided_distance(r.deviation->from_scan)},
+                                      {"from_result", one_sided_distance(r.deviation->from_result)}};
     }
     json["warnings"] = scan.warnings;
     json["verdict"] = verdict(r);

@@ -11,7 +11,7 @@ namespace qchopper {
 
 // A line for each step that changed something, the distance, the volume and a verdict.
 std::vector<std::string> lines(const RepairedScan& scan, const RepairRequest& request);
-// The document qchopper-repair-2 (docs/user/repair.md).
+// The document qchopper-repair-3 (docs/user/repair.md).
 std::string document(const RepairedScan& scan, const RepairRequest& request);
 
 }  // namespace qchopper

@@ -179,7 +179,7 @@ Json proposal_json(const Proposal& p, const Project& project) {
               {"rules_hold", p.rules_hold},
               {"candidates", p.candidates},
               {"planes", planes}};
-    if (const std::size_t judged = max_judged_planes(project.settings); judged > 0) json["most_judged"] = judged;
+    if (const std::size_t judged = max_judged_planes(project.settings); judged > 0) json["max_judged_planes"] = judged;
     return json;
 }
 
@@ -284,7 +284,7 @@ std::string document(const SegmentAnswer& answer) {
             pieces.back()["unreachable_all_directions"] = *answer.unreachable[i];
         }
     }
-    Json json{{"schema", "qchopper-segment-2"},
+    Json json{{"schema", "qchopper-segment-3"},
               {"project", answer.folder.string()},
               {"done", text_or_null(answer.done)},
               {"demand_met", answer.is_demand_met},

@@ -16,7 +16,7 @@ nlohmann::ordered_json discarded_json(const Project& project);
 
 // The notes only, if no project was made.
 std::vector<std::string> lines(const SegmentAnswer& answer);
-// The document qchopper-segment-2 (tests/app/cli/segment_test.cpp).
+// The document qchopper-segment-3 (tests/app/cli/segment_test.cpp).
 std::string document(const SegmentAnswer& answer);
 
 }  // namespace qchopper

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/report/columns.h"
 #include "app/report/machine_reachability_report.h"
@@ -15,6 +14,7 @@
 #include "app/store/project_lines.h"
 #include "base/printable.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/setup_fields.h"
 
@@ -31,8 +31,8 @@ std::string size_word(Vec3 v) {
     return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
 }
 
-const std::vector<std::string> setup_columns{"base",       "unreachable", "hidden",   "steep",   "holder",
-                                             "too narrow", "foam",        "depth mm", "residue", "directions",
+const std::vector<std::string> setup_columns{"base",       "unreachable", "hidden",   "steep",         "holder",
+                                             "too narrow", "foam",        "depth mm", "rest material", "orientations",
                                              "block mm",   "workholding", "fits"};
 
 // `is_held`: whether the machine holds all poses, as far as it was asked.
@@ -58,7 +58,7 @@ std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_he
 // Degrees from x towards y of the setup, of the tool axis.
 double azimuth_deg(const Setup& setup, const ToolOrientation& orientation) {
     const Vec3 d = setup.tool_axis(orientation);
-    return std::atan2(d.y, d.x) * 180 / std::numbers::pi;
+    return degrees(std::atan2(d.y, d.x));
 }
 
 std::string direction_line(const Setup& setup, const ToolOrientation& d) {
@@ -66,7 +66,7 @@ std::string direction_line(const Setup& setup, const ToolOrientation& d) {
 }
 
 void add_directions(const Setup& setup, std::vector<std::string>& lines) {
-    std::vector<std::vector<std::string>> rows{{"direction", "tilt", "azimuth", "reaches more", "depth mm"}};
+    std::vector<std::vector<std::string>> rows{{"orientation", "tilt", "azimuth", "reaches more", "depth mm"}};
     for (std::size_t i = 0; i < setup.access.orientations.size(); ++i) {
         const ToolOrientation& d = setup.access.orientations[i];
         rows.push_back({std::to_string(i + 1), fixed(d.tilt_deg, 0), i == 0 ? "-" : fixed(azimuth_deg(setup, d), 0),
@@ -85,7 +85,7 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     }
     for (const std::string& line : columns(rows)) lines.push_back(line);
     lines.emplace_back("Shares are of the area without the base; ~ marks those judged on samples alone.");
-    lines.emplace_back("Directions of the setup in force, in degrees:");
+    lines.emplace_back("Tool orientations of the setup in force, in degrees:");
     add_directions(chosen, lines);
     const SurfaceAccess& access = chosen.access;
     if (access.ignored_mm2 > 0) {
@@ -94,7 +94,7 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     lines.push_back("With all directions that can be held " + share_word(access.all_directions_share) +
                     " stays out of reach.");
     if (access.further) {
-        lines.push_back("One more direction (" + direction_line(chosen, *access.further) + ") would reach " +
+        lines.push_back("One more orientation (" + direction_line(chosen, *access.further) + ") would reach " +
                         share_word(access.further->gained_share) + " more.");
     }
     if (!chosen.tools.empty()) {
@@ -118,22 +118,27 @@ std::string program_words(const PieceReport& job) {
 }
 
 Json setup_json(const Setup& setup, const Cell& cell) {
-    return {{"base_number", setup.base_number},
-            {"base_cut", json_of(setup.base)},
-            {"base", setup.base_description},
-            {"fits", check_stock_fit(setup, with_tools(cell, setup.tools)).fits()},
-            {"block", cell.stock[setup.block.stock].name},
-            {"block_mm", json_of(setup.block.size)},
-            {"sawn", setup.block.is_sawn},
-            {"offcuts_mm", json_of(setup.block.offcuts)},
-            {"undercut", setup.undercut},
-            {"undercut_by_count", setup.undercut_by_count},
-            {"tools", setup.tools.empty() ? Json() : Json(setup.tools)},
-            {"workholding", workholding_json(setup)},
-            {"reach", access_json(setup.access)}};
+    Json json;
+    add_setup(json, setup, cell);
+    json.update({{"fits", check_stock_fit(setup, with_tools(cell, setup.tools)).fits()},
+                 {"sawn", setup.block.is_sawn},
+                 {"offcuts_mm", json_of(setup.block.offcuts)},
+                 {"undercut_by_count", setup.undercut_by_count},
+                 {"tools", setup.tools.empty() ? Json() : Json(setup.tools)}});
+    return json;
 }
 
 }  // namespace
+
+void add_setup(nlohmann::ordered_json& json, const Setup& setup, const Cell& cell) {
+    json_values::JsonWriter writer(json);
+    base_fields(writer, setup);
+    json.update({{"block", cell.stock[setup.block.stock].name},
+                 {"block_mm", json_of(setup.block.size)},
+                 {"undercut", setup.undercut},
+                 {"workholding", workholding_json(setup)},
+                 {"reach", json_of(setup.access)}});
+}
 
 std::string base_word(const Setup& setup) {
     return (setup.base ? "cut " : "side ") + std::to_string(setup.base_number);
@@ -147,27 +152,6 @@ std::string arm_note(const Cell& cell) {
     if (cell.machine) return {};
     return "Arm not checked: the cell file describes none; a tilt of up to 60 degrees is taken for "
            "possible.";
-}
-
-nlohmann::ordered_json access_json(const SurfaceAccess& r) {
-    Json json{{"method", names_of(r.method)(r.method)},
-              {"unreachable_share", r.unreachable_share()},
-              {"area_mm2", r.area_mm2},
-              {"hidden_mm2", r.hidden_mm2},
-              {"steep_mm2", r.steep_mm2},
-              {"steep_counts", r.steep_counts},
-              {"holder_mm2", r.holder_mm2},
-              {"too_narrow_mm2", r.too_narrow_mm2},
-              {"narrow_counts", r.narrow_counts},
-              {"all_directions_share", r.all_directions_share},
-              {"foam_mm3", r.foam_mm3},
-              {"foam_depth_mm", r.foam_depth_mm},
-              {"residue_mm3", r.rest_material_mm3},
-              {"arm_checked", r.is_arm_checked},
-              {"directions", json_of(r.orientations)},
-              {"further", json_of(r.further)}};
-    if (r.ignored_mm2 > 0) json["ignored_mm2"] = r.ignored_mm2;
-    return json;
 }
 
 std::string out_of_reach_sentence(const std::string& piece, double share, double limit) {
@@ -213,7 +197,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
         text.push_back("The job of the piece is written again" + program_words(*answer.job) + ".");
     const std::string piece = answer.pieces.empty() ? "A" : answer.pieces.front().piece;
     text.push_back(answer.pieces.size() == 1 ? "Choose: qchopper setup " + word + " --piece " + piece +
-                                                   " --base N --directions N --tools N,...   or --auto"
+                                                   " --base N --orientations N --tools N,...   or --auto"
                                              : "One piece: qchopper setup " + word + " --piece " + piece);
     return text;
 }
@@ -224,7 +208,7 @@ std::string document(const SetupAnswer& answer) {
     for (const PieceSetups& p : answer.pieces) {
         Json ordered;
         if (p.order) {
-            ordered = Json{{"base", json_of(p.order->base)},
+            ordered = Json{{"base_number", json_of(p.order->base)},
                            {"max_directions", json_of(p.order->max_directions)},
                            {"tools", p.order->tools.empty() ? Json() : Json(p.order->tools)}};
         }
@@ -233,7 +217,7 @@ std::string document(const SetupAnswer& answer) {
                           {"setups", list_of(p.piece_setup.choice.setups, setup_in_cell)},
                           {"work_envelope", json_of(p.piece_setup.machine_reachability)}});
     }
-    Json json{{"schema", "qchopper-setup-1"},
+    Json json{{"schema", "qchopper-setup-2"},
               {"project", answer.folder.string()},
               {"cell", answer.cell.name},
               {"max_unreachable", answer.max_unreachable},

@@ -24,11 +24,11 @@ std::vector<std::string> warnings(const SetupAnswer& answer);
 // Said of a cell that describes no arm; empty for any other.
 std::string arm_note(const Cell& cell);
 
-// With the keys of the manifest's reach (docs/developer/formats/job-folder.md), the directions in piece coordinates.
-nlohmann::ordered_json access_json(const SurfaceAccess& access);
+// What setup and prepare say of a setup, with the keys of the manifest; the tool axes in piece coordinates.
+void add_setup(nlohmann::ordered_json& json, const Setup& setup, const Cell& cell);
 
 std::vector<std::string> lines(const SetupAnswer& answer);
-// The document qchopper-setup-1 (tests/app/cli/setup_test.cpp).
+// The document qchopper-setup-2 (tests/app/cli/setup_test.cpp).
 std::string document(const SetupAnswer& answer);
 
 }  // namespace qchopper

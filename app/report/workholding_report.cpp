@@ -24,7 +24,7 @@ nlohmann::ordered_json workholding_json(const Setup& setup) {
 }
 
 std::vector<std::string> lines(const Workholding& check) {
-    std::vector<std::string> text{"Held: tape or glue up to " + fixed(check.joint_force, 1) +
+    std::vector<std::string> text{"Workholding: tape or glue up to " + fixed(check.joint_force, 1) +
                                   " N at its top, foam up to " + fixed(check.foam_force, 1) + " N (" +
                                   fixed(check.narrowest_mm2 / 100, 1) + " cm2 stand " + fixed(check.narrowest_z, 0) +
                                   " mm above the base), cutting force " + significant(check.holding.cutting_force, 3) +

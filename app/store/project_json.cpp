@@ -69,7 +69,7 @@ constexpr auto names_of(FragmentChoice) {
 
 template <class V, Of<RepairChoices> T>
 void fields(V& v, T& repair) {
-    v("weld_mm", repair.weld_mm);
+    v("snap_borders_mm", repair.snap_borders_mm);
     v.converted(
         "fill", repair.fill, [](Fill fill) { return name_of(fill); },
         [](const std::string& name) {
@@ -135,7 +135,7 @@ static void take(const Json& json, const std::string& key, Discards& discards) {
 template <class V, Of<SetupOrder> T>
 void fields(V& v, T& order) {
     v("piece", order.piece);
-    v.maybe("base", order.base);
+    v.maybe("base_number", order.base);
     v.maybe("max_directions", order.max_directions);
     v.maybe("tools", order.tools);
 }
@@ -210,7 +210,7 @@ void fields(V& v, T& review) {
 
 template <class V, Of<Project> T>
 void fields(V& v, T& project) {
-    v.constant("schema", "qchopper-project-3", "is not qchopper-project-3");
+    v.constant("schema", "qchopper-project-4", "is not qchopper-project-4");
     v("scan", project.scan);
     v("preset", project.preset);
     v("settings", project.settings);
@@ -229,7 +229,7 @@ void fields(V& v, T& project) {
     v.maybe("load", project.load);
     v.maybe("no_cut", project.no_cut);
     v.maybe("beam", project.beam);
-    v.maybe("verdict", project.review);
+    v.maybe("review", project.review);
     v.maybe("reverted", project.reverted);
 }
 

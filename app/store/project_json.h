@@ -1,4 +1,4 @@
-// Writes and reads the text of project.json, schema qchopper-project-3 (docs/developer/formats/project-folder.md);
+// Writes and reads the text of project.json, schema qchopper-project-4 (docs/developer/formats/project-folder.md);
 // others are refused.
 //
 // A project that is written and read again is the same project (tests/app/store/project_test.cpp). O(cuts + pieces).

@@ -20,7 +20,7 @@ void report_import(const fs::path& scan, const ImportedScan& imported, const Con
     if (r.holes_filled > 0) line += " " + with_commas(r.holes_filled) + " holes closed.";
     if (r.collapsed > 0) line += " " + with_commas(r.collapsed) + " collapsed faces dropped.";
     if (r.points_copied > 0) line += " " + with_commas(r.points_copied) + " non-manifold vertices split.";
-    if (r.shells_turned > 0) line += " " + with_commas(r.shells_turned) + " shells turned outwards.";
+    if (r.shells_reoriented > 0) line += " " + with_commas(r.shells_reoriented) + " shells turned outwards.";
     context.message(line);
 }
 

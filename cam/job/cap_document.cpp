@@ -31,8 +31,8 @@ void check_hole(const JobHole& hole, const Pose& cap_in_setup, std::size_t numbe
 template <class V, Of<JobHole> T>
 void fields(V& v, T& hole) {
     v("number", hole.number);
-    v("diameter", hole.diameter, is_length);
-    v("depth", hole.depth, is_length);
+    v("diameter_mm", hole.diameter, is_length);
+    v("depth_mm", hole.depth, is_length);
     v.converted(
         "on_cap", hole.on_cap,
         [](Point2 p) {

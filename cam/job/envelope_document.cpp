@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/json_fields.h"
+#include "base/units.h"
 #include "cam/job/setup_fields.h"
 
 namespace qchopper {
@@ -21,8 +21,8 @@ double rounded(double value) {
     return std::round(value * 1e6) / 1e6 + 0.0;  // no -0
 }
 
-double rounded_degrees(double radians) {
-    return rounded(radians * 180 / std::numbers::pi);
+double rounded_degrees(double angle) {
+    return rounded(degrees(angle));
 }
 
 Vec3 rounded(Vec3 v) {
@@ -32,12 +32,6 @@ Vec3 rounded(Vec3 v) {
 const char* key_of(PoseKind kind) {
     constexpr const char* keys[] = {"tip", "corner", "edge", "retract", "home", "tool_change"};
     return keys[static_cast<std::size_t>(kind)];
-}
-
-const char* key_of(Remedy remedy) {
-    constexpr const char* keys[] = {"none",        "tool_turn", "branch",     "table_turn",
-                                    "block_shift", "base",      "directions", "cut"};
-    return keys[static_cast<std::size_t>(remedy)];
 }
 
 Joints rounded_degrees(Joints joints) {
@@ -60,19 +54,19 @@ struct EnvelopeDocument {
 }  // namespace
 
 static void fields(JsonWriter& v, const ReachabilityPose& pose) {
-    const bool has_direction = pose.kind != PoseKind::home && pose.kind != PoseKind::tool_change;
+    const bool has_orientation = pose.kind != PoseKind::home && pose.kind != PoseKind::tool_change;
     v("kind", key_of(pose.kind));
-    v("direction", has_direction ? std::optional(pose.orientation + 1) : std::nullopt);
-    v("tip", has_direction ? std::optional(rounded(pose.tip)) : std::nullopt);
+    v("orientation", has_orientation ? std::optional(pose.orientation + 1) : std::nullopt);
+    v("tip", has_orientation ? std::optional(rounded(pose.tip)) : std::nullopt);
     v("tip_in_cell", rounded(pose.tip_in_cell));
-    v("out_in_cell", rounded(pose.tool_axis_in_cell));
+    v("tool_axis_in_cell", rounded(pose.tool_axis_in_cell));
     v("table_angle_deg", rounded_degrees(pose.table_angle));
     v("tool_turn_deg", rounded_degrees(pose.redundancy_angle));
     v("joints_deg", pose.joints ? std::optional(rounded_degrees(*pose.joints)) : std::nullopt);
 }
 
 static void fields(JsonWriter& v, const RegionReachability& region) {
-    v("direction", region.orientation + 1);
+    v("orientation", region.orientation + 1);
     v("poses", region.poses);
     v("holds", region.holds);
     v("back", region.configuration.is_back);
@@ -107,7 +101,7 @@ void fields(V& v, T& document) {
     auto& summary = document.summary;
     const auto reachability = [&]() -> const MachineReachability& { return document.input->machine_reachability; };
     v.constant("format", "qchopper envelope", "is not a qchopper envelope");
-    v.version("schema", 1);
+    v.version("schema", 2);
     v("piece", summary.piece);
     v.object("cell", [&](auto& cell) {
         cell.written("name", [&] { return document.input->cell.name; });
@@ -116,7 +110,7 @@ void fields(V& v, T& document) {
     v("arm_checked", summary.is_arm_checked);
     v("holds", summary.holds);
     v.written("summary", [&] { return describe_reachability(summary.piece, reachability()); });
-    v.written("cure", [&] { return key_of(reachability().remedy); });
+    v.written("remedy", [&] { return to_word(reachability().remedy); });
     v.written("tightest", [&] {
         return summary.is_arm_checked ? std::optional<std::string>(rule_of(reachability().tightest().check).key)
                                       : std::nullopt;

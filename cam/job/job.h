@@ -23,7 +23,7 @@
 
 namespace qchopper {
 
-constexpr int job_schema_version = 7;
+constexpr int job_schema_version = 8;
 
 // Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, so
 // are those of the alternatives, the envelope has a margin, states are empty or one per triangle, and max_unreachable

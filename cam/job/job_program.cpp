@@ -22,7 +22,7 @@ double ProofResult::figure(std::string_view key) const {
 
 std::string describe(const MovesLeftOut& moves) {
     if (moves.because.empty()) return {};
-    return "no hold of the arm carries " + fixed(moves.length_mm, 0) + " mm of its cuts: " + moves.because +
+    return "no arm posture reaches " + fixed(moves.length_mm, 0) + " mm of its cuts: " + moves.because +
            "; they are left out, and the proof counts the foam that stays";
 }
 

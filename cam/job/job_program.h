@@ -51,7 +51,7 @@ struct MovesLeftOut {
     bool operator==(const MovesLeftOut&) const = default;
 };
 
-// "no hold of the arm carries 6 mm of its cuts: ...", without a full stop. Empty if none is left out.
+// "no arm posture reaches 6 mm of its cuts: ...", without a full stop. Empty if none is left out.
 std::string describe(const MovesLeftOut& moves);
 
 // A ball-ended tool that may be used and that the program does not use along a direction of the setup, and why.

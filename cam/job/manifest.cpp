@@ -23,12 +23,6 @@ std::string state_word(const ReadJob& job) {
     return is_unreachable(job.setup, job.max_unreachable) ? "unreachable" : "ready";
 }
 
-template <class V>
-void base_number(V& v, auto& number) {
-    v("base_number", number);
-    v.check(number >= 0, "base_number", "is not a whole number in bounds");
-}
-
 template <class T>
 std::optional<std::vector<T>> null_if_empty(const std::vector<T>& values) {
     return values.empty() ? std::nullopt : std::optional(values);
@@ -36,38 +30,17 @@ std::optional<std::vector<T>> null_if_empty(const std::vector<T>& values) {
 
 }  // namespace
 
-template <class V, Of<SurfaceAccess> T>
-void fields(V& v, T& access) {
-    v("method", access.method);
-    v("arm_checked", access.is_arm_checked);
-    v("directions", access.orientations);
-    v("further", access.further);
-    v("area_mm2", access.area_mm2, not_negative);
-    v("hidden_mm2", access.hidden_mm2, not_negative);
-    v("steep_mm2", access.steep_mm2, not_negative);
-    v("holder_mm2", access.holder_mm2, not_negative);
-    v("too_narrow_mm2", access.too_narrow_mm2, not_negative);
-    v("steep_counts", access.steep_counts);
-    v("narrow_counts", access.narrow_counts);
-    v.derived(
-        "unreachable_share", [&] { return access.unreachable_share(); }, "is not that of the areas");
-    v("all_directions_share", access.all_directions_share, not_negative);
-    v("foam_mm3", access.foam_mm3, not_negative);
-    v("foam_depth_mm", access.foam_depth_mm);
-    v("residue_mm3", access.rest_material_mm3, not_negative);
-    v.maybe("ignored_mm2", access.ignored_mm2, 0, not_negative);
-}
-
 template <class V, Of<Alternative> T>
 void fields(V& v, T& other) {
-    base_number(v, other.base_number);
+    v("base_number", other.base_number);
+    v.check(other.base_number >= 0, "base_number", "is not a whole number in bounds");
     v("base_description", other.base_description);
     v("method", other.method);
     v("unreachable_share", other.unreachable_share, not_negative);
     v("foam_mm3", other.foam_mm3, not_negative);
-    v("residue_mm3", other.rest_material_mm3, not_negative);
-    v("block", other.block);
-    v("directions", other.directions);
+    v("rest_material_mm3", other.rest_material_mm3, not_negative);
+    v("block_mm", other.block);
+    v("orientations", other.orientations);
 }
 
 template <class V, Of<HalfSpace> T>
@@ -75,7 +48,7 @@ void fields(V& v, T& half_space) {
     v("cut", half_space.cut);
     v.check(half_space.cut >= 0, "cut", "is no number of a cut");
     v("normal", half_space.plane.normal);
-    v("offset", half_space.plane.offset);
+    v("offset_mm", half_space.plane.offset);
     v("above", half_space.above);
 }
 
@@ -106,10 +79,7 @@ namespace {
 template <class V, class Job>
 void setup_fields(V& v, Job& job) {
     auto& setup = job.setup;
-    base_number(v, setup.base_number);
-    v("base", setup.base);
-    v.check(setup.base.value_or(0) >= 0, "base", "is no number of a cut");
-    v("base_description", setup.base_description);
+    base_fields(v, setup);
     v("up", setup.up);
     v("piece_in_setup", setup.piece_in_setup);
     v("box", setup.box);
@@ -130,7 +100,8 @@ void setup_fields(V& v, Job& job) {
     v("warnings", setup.warnings);
     // One per direction of the tool for which the table has an angle of its own, else one.
     const std::size_t angles = setup.placement.table_angles.size();
-    v.check(angles == 0 || angles == setup.access.orientations.size(), "table_angles_rad", "is not one per direction");
+    v.check(angles == 0 || angles == setup.access.orientations.size(), "table_angles_deg",
+            "is not one per orientation");
     v.check(job.setup_in_cell.size() == std::max<std::size_t>(1, angles), "setup_in_cell", "is not one per angle");
 }
 
@@ -144,9 +115,9 @@ void stock_fields(V& v, Job& job) {
     v("size", block.size);
     v("turned", block.is_turned);
     v("sawn", block.is_sawn);
-    v("offcuts", block.offcuts);
+    v("offcuts_mm", block.offcuts);
     v("holds", block.holds);
-    v("margin", job.margin);
+    v("stock_margin", job.margin);
 }
 
 template <class V, class Job>
@@ -201,7 +172,7 @@ void fields(V& v, T& job) {
     v.check(job.max_unreachable <= 1, "max_unreachable", "is out of range");
     v.derived(
         "state", [&] { return state_word(job); }, "contradicts the unreachable share and its limit");
-    v("envelope", job.stock_fit);
+    v("stock_fit", job.stock_fit);
     v.object("work_envelope", [&](auto& poses) {
         poses("arm_checked", job.is_arm_checked);
         poses("holds", job.holds_poses);

@@ -8,19 +8,20 @@
 #include "base/files/portable_name.h"
 #include "base/json_fields.h"
 #include "cam/job/cap_document.h"
+#include "cam/job/setup_fields.h"
 
 namespace qchopper {
 namespace {
 
 using namespace json_values;
 
-// Directions count from 1 in the document.
+// Orientations count from 1 in the document.
 std::uint32_t to_number(std::size_t index) {
     return static_cast<std::uint32_t>(index + 1);
 }
 
 std::size_t to_index(std::uint32_t number) {
-    if (number < 1) throw wrong("direction", "counts from 1");
+    if (number < 1) throw wrong("orientation", "counts from 1");
     return number - 1;
 }
 
@@ -48,7 +49,7 @@ template <class V, Of<JobChunk> T>
 void fields(V& v, T& chunk) {
     v("file", chunk.file);
     v("tool", chunk.tool);
-    v.converted("direction", chunk.orientation, to_number, to_index);
+    v.converted("orientation", chunk.orientation, to_number, to_index);
     v("moves", chunk.moves);
     v("length_mm", chunk.length_mm, not_negative);
     v("box", chunk.box);
@@ -67,15 +68,15 @@ void fields(V& v, T& part) {
 
 template <class V, Of<DrillOrientation> T>
 void fields(V& v, T& orientation) {
-    v("out", orientation.tool_axis, is_direction);
-    v("table_angle_rad", orientation.table_angle);
+    v("tool_axis", orientation.tool_axis, is_direction);
+    v.converted("table_angle_deg", orientation.table_angle, stated_degrees, radians);
 }
 
 template <class V, Of<ToolLeftOut> T>
 void fields(V& v, T& tool) {
     v("tool", tool.tool);
     v.converted(
-        "direction", tool.orientation,
+        "orientation", tool.orientation,
         [](const auto& index) { return index ? std::optional(to_number(*index)) : std::nullopt; },
         [](const auto& number) { return number ? std::optional(to_index(*number)) : std::nullopt; });
     v("because", tool.because);

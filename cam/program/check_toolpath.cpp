@@ -59,7 +59,7 @@ void check_toolpath(const Toolpath& toolpath, const Setup& setup, const Cell& ce
         const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
         if (operation.tool >= cell.machine->tools.size()) refuse(where, "its tool is not in the cell file");
         if (operation.orientation >= setup.access.orientations.size())
-            refuse(where, "its direction is not of the setup");
+            refuse(where, "its orientation is not of the setup");
         if (operation.runs.empty()) refuse(where, "has no runs");
         check_speeds(where, operation, *cell.machine);
         for (std::size_t k = 0; k < operation.runs.size(); ++k) {

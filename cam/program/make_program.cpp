@@ -118,8 +118,8 @@ class OperationHolder {
                 refusal_ = search_.refusal();
                 if (divide(first, path, longest) || leave_out(first, path, longest)) continue;
                 throw ProgramRefused(
-                    where + ", run " + std::to_string(first + 1) + ": no hold of the arm carries it: " + refusal_,
-                    "place the block otherwise, or carve from other directions");
+                    where + ", run " + std::to_string(first + 1) + ": no arm posture reaches it: " + refusal_,
+                    "place the block otherwise, or take other tool orientations");
             }
             planned.push_back({search_.operation(rest, path, longest), extents_of(longest.joints)});
             for (ProgramRun& run : planned.back().operation.runs) limit_speed_changes(run, max_lines_of_run_);
@@ -234,7 +234,7 @@ class OperationHolder {
     std::size_t max_lines_ = 0;  // of an operation
     std::size_t max_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
-    std::string refusal_;  // of the last run that no hold carried
+    std::string refusal_;  // of the last run that no arm posture reached
     double left_out_ = 0;
     std::string left_out_because_;
 };
@@ -302,7 +302,7 @@ class SectionJoiner {
 
     void join(std::vector<PlannedOperation>& all, const Context& context) {
         double angle = 0;
-        context.progress("ways to sections found", 0, all.size());
+        context.progress("paths to operations found", 0, all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             context.check_cancelled();
             ProgramOperation& own = all[i].operation;
@@ -316,7 +316,7 @@ class SectionJoiner {
             std::reverse(own.exit.targets.begin(), own.exit.targets.end());
             own.exit.targets.push_back(cell_.machine->start.joints);
             find_restarts(own);
-            context.progress("ways to sections found", i + 1, all.size());
+            context.progress("paths to operations found", i + 1, all.size());
         }
         if (!all.empty()) turn_table(all.back().operation, 0);
     }
@@ -359,7 +359,7 @@ class SectionJoiner {
     void turn_table(const ProgramOperation& operation, double from) {
         PtpPlanner& planner = *planners_[operation.tool];
         if (planner.turns_clear(from, operation.table_angle)) return;
-        throw ProgramRefused("home is not clear while the table turns for direction " +
+        throw ProgramRefused("home is not clear while the table turns for orientation " +
                                  std::to_string(operation.orientation + 1) + ": " + planner.refusal(),
                              "choose another start pose");
     }
@@ -368,7 +368,7 @@ class SectionJoiner {
         PtpPlanner& planner = *planners_[operation.tool];
         std::optional<PtpPath> found = planner.from_home(end);
         if (found) return std::move(*found);
-        throw ProgramRefused("no joint move between home and direction " + std::to_string(operation.orientation + 1) +
+        throw ProgramRefused("no joint move between home and orientation " + std::to_string(operation.orientation + 1) +
                                  " with tool " + std::to_string(cell_.machine->tools[operation.tool].number) +
                                  " is clear: " + planner.refusal(),
                              "choose another start pose, or place the block otherwise");

@@ -95,13 +95,14 @@ class ReachableSetupSearch {
             const std::vector<OrientationPoses> poses = milling_poses(other, *piece_.mesh, cell_);
             if (first_place(other, poses, cell_, {}, context_)) {
                 MachineReachability reachability = place_block(other, poses, cell_, {}, context_);
-                if (reachability.holds()) return taken(std::move(choice), std::move(reachability), Remedy::directions);
+                if (reachability.holds())
+                    return taken(std::move(choice), std::move(reachability), Remedy::orientations);
             }
             kept.clear();
             if (!divide_directions(other, poses, kept, refused)) return std::nullopt;
         }
         const auto is_kept = [&](Vec3 direction) { return contains(kept, direction); };
-        return chosen_again(setup.base_number, is_kept, Remedy::directions);
+        return chosen_again(setup.base_number, is_kept, Remedy::orientations);
     }
 
     // Of the directions those that are held together at some place, and, added to `refused`, the others; false if not

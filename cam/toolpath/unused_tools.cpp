@@ -57,7 +57,7 @@ class Listing {
         const bool finishes = tool == chosen_.finishing || tool == chosen_.fine;
         if (!finishes) return "it roughs, and no foam is left for that";
         if (has_nothing_.contains({tool, orientation})) {
-            return "tools and directions before it leave no surface that it would finish";
+            return "tools and orientations before it leave no surface that it would finish";
         }
         return "foam that stands keeps its holder or its flute from all of its passes";
     }

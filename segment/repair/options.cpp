@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 4> fills{"auto", "flat", "fair", "none"};
 
 RepairOptions options_of(const RepairChoices& choices) {
     RepairOptions options;
-    options.weld_mm = choices.weld_mm;
+    options.snap_borders_mm = choices.snap_borders_mm;
     options.fill.fill = choices.fill;
     options.resolve_self_intersections = choices.resolve_self_intersections;
     options.smooth_pen_grooves = choices.smooth_pen_grooves;

@@ -13,7 +13,7 @@ namespace qchopper {
 
 struct RepairOptions {
     double mm_per_unit = 1;            // length of one unit of the mesh, above 0
-    double weld_mm = 0;                // border points nearer than this are merged; 0: off
+    double snap_borders_mm = 0;        // border points nearer than this are merged; 0: off
     bool drop_repeated = true;         // faces that coincide with another one
     bool split = true;                 // edges of more than two faces, points where surfaces only touch
     bool orient = true;                // turn faces so that neighbours agree
@@ -32,7 +32,7 @@ struct RepairOptions {
 
 // The options that an operator chooses and a project file stores: with them the same scan gives the same solid.
 struct RepairChoices {
-    double weld_mm = 0;  // border points nearer than this are merged; 0: off
+    double snap_borders_mm = 0;  // border points nearer than this are merged; 0: off
     Fill fill = Fill::by_size;
     bool resolve_self_intersections = false;
     bool smooth_pen_grooves = false;

@@ -124,14 +124,14 @@ class Settling {
         if (!options_.split) return false;
         progress_.begin("non-manifold edges split");
         const SplitCounts counts = split_non_manifold(mesh_, {options_.orient, options_.stitch});
-        report_.faces_turned += counts.faces_turned;
+        report_.faces_reoriented += counts.faces_reoriented;
         if (report_.passes == 1) {  // later passes find the same ones: they begin with a weld
             report_.edges_split = counts.edges_split;
             report_.edges_cut = counts.edges_cut;
             report_.stitched = counts.stitched;
             report_.points_copied = counts.copies;
         }
-        return counts.faces_turned > 0;
+        return counts.faces_reoriented > 0;
     }
 
     bool remove_flat() {
@@ -174,7 +174,7 @@ class Settling {
         report_.cavities = counts.cavities;
         report_.overlapping = counts.overlapping;
         report_.left_inside_out = counts.left;
-        report_.shells_turned += counts.turned;
+        report_.shells_reoriented += counts.turned;
         return counts.turned > 0;
     }
 
@@ -204,8 +204,8 @@ constexpr int max_resolvings = 4;
 
 void check(const RepairOptions& o) {
     const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-    if (!is_length(o.weld_mm) || !is_length(o.alpha_wrap_mm) || !std::isfinite(o.mm_per_unit) || !(o.mm_per_unit > 0) ||
-        !is_length(o.fill.flat_chord_share)) {
+    if (!is_length(o.snap_borders_mm) || !is_length(o.alpha_wrap_mm) || !std::isfinite(o.mm_per_unit) ||
+        !(o.mm_per_unit > 0) || !is_length(o.fill.flat_chord_share)) {
         throw InputError(InputFault::use, "lengths for the repair must be finite and not negative, in mm",
                          "see qchopper repair --help");
     }
@@ -249,7 +249,7 @@ class Repairing {
         report_.welded = counts.welded;
         report_.collapsed = counts.collapsed;
         report_.unreferenced = counts.unreferenced;
-        const SnapBorders border = weld_borders(mesh_, options_.weld_mm / options_.mm_per_unit, &sources_);
+        const SnapBorders border = snap_borders(mesh_, options_.snap_borders_mm / options_.mm_per_unit, &sources_);
         report_.borders_snapped = border.welded;
         report_.border_moved_mm = border.farthest * options_.mm_per_unit;
     }
@@ -316,7 +316,7 @@ class Repairing {
         const Outward counts = orient_outward(mesh_);
         report_.shells = counts.shells;
         report_.cavities = counts.cavities;
-        report_.shells_turned = counts.turned;
+        report_.shells_reoriented = counts.turned;
     }
 
     void finish() {

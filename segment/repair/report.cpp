@@ -73,7 +73,7 @@ void add_surface_warnings(const RepairReport& r, Sentences& sentences) {
     sentences.add(r.edges_split, "edge belonged", "edges belonged",
                   " to three faces or more; the surface was split there.");
     sentences.add(r.edges_cut, "edge was", "edges were", " cut open, because the faces there cannot be made to agree.");
-    sentences.add(r.faces_turned, "face was", "faces were", " turned to agree with the neighbours.");
+    sentences.add(r.faces_reoriented, "face was", "faces were", " turned to agree with the neighbours.");
     sentences.add(r.repeated + r.of_doubled_components, "face", "faces", " that lay on another one dropped.");
     sentences.add(r.holes_filled, "hole", "holes", " closed with " + counted(r.faces_added, "face") + ".");
     if (r.added_area_share > warn_added_share) {
@@ -85,7 +85,7 @@ void add_surface_warnings(const RepairReport& r, Sentences& sentences) {
 }
 
 void add_shell_warnings(const RepairReport& r, Sentences& sentences) {
-    sentences.add(r.shells_turned, "shell was", "shells were", " inside out and turned.");
+    sentences.add(r.shells_reoriented, "shell was", "shells were", " inside out and turned.");
     sentences.add(r.overlapping, "shell lies", "shells lie",
                   " inside another one that faces the same way: the scan overlaps itself there.");
     sentences.add(r.left_inside_out, "shell is", "shells are",
@@ -150,39 +150,39 @@ std::optional<Refusal> refusal_of(const RepairReport& r) {
 
 std::vector<RepairStep> steps(const RepairReport& r) {
     const std::string with_faces = ", with " + counted(r.faces_added, "face");
-    return {
-        {"weld", r.welded + r.collapsed + r.unreferenced,
-         clauses({{r.welded, "point welded", "points welded"},
-                  {r.collapsed, "collapsed face dropped", "collapsed faces dropped"},
-                  {r.unreferenced, "unused point dropped", "unused points dropped"}})},
-        {"weld_borders", r.borders_snapped,
-         clauses({{r.borders_snapped, "border point welded", "border points welded"}})},
-        {"faces", r.repeated + r.of_doubled_components,
-         clauses({{r.repeated, "repeated face dropped", "repeated faces dropped"},
-                  {r.of_doubled_components, "face of flat doubled components dropped",
-                   "faces of flat doubled components dropped"}})},
-        {"split", r.edges_split + r.edges_cut + r.points_copied,
-         clauses({{r.edges_split, "edge of more than two faces split", "edges of more than two faces split"},
-                  {r.edges_cut, "edge cut open", "edges cut open"},
-                  {r.points_copied, "copy of a point made", "copies of points made"}})},
-        {"orient", r.faces_turned,
-         clauses({{r.faces_turned, "face turned to agree with its neighbours",
-                   "faces turned to agree with their neighbours"}})},
-        {"stitch", r.stitched, clauses({{r.stitched, "edge stitched", "edges stitched"}})},
-        {"degenerate", r.degenerate_removed,
-         clauses({{r.degenerate_removed, "face without area removed", "faces without area removed"},
-                  {r.degenerate_left, "face without area left", "faces without area left"}})},
-        {"fill", r.holes_filled + r.open_components_dropped,
-         clauses({{r.holes_filled, "hole closed" + with_faces, "holes closed" + with_faces},
-                  {r.holes_faired, "of them faired", "of them faired"},
-                  {r.points_added, "point added", "points added"},
-                  {r.left_open.size(), "hole left open", "holes left open"},
-                  {r.open_components_dropped, "open component dropped", "open components dropped"}})},
-        {"outwards", r.shells_turned, clauses({{r.shells_turned, "shell turned outwards", "shells turned outwards"}})},
-        {"fragments", r.fragments, fragments(r)},
-        {"resolve", r.resolved ? r.resolved->places : 0, resolving(r)},
-        {"pen_grooves", r.pen_grooves ? r.pen_grooves->count : 0, smoothing(r)},
-        {"alpha_wrap", r.alpha_wrapped ? std::size_t{1} : 0, wrapping(r)}};
+    return {{"weld", r.welded + r.collapsed + r.unreferenced,
+             clauses({{r.welded, "point welded", "points welded"},
+                      {r.collapsed, "collapsed face dropped", "collapsed faces dropped"},
+                      {r.unreferenced, "unused point dropped", "unused points dropped"}})},
+            {"snap_borders", r.borders_snapped,
+             clauses({{r.borders_snapped, "border point welded", "border points welded"}})},
+            {"faces", r.repeated + r.of_doubled_components,
+             clauses({{r.repeated, "repeated face dropped", "repeated faces dropped"},
+                      {r.of_doubled_components, "face of flat doubled components dropped",
+                       "faces of flat doubled components dropped"}})},
+            {"split", r.edges_split + r.edges_cut + r.points_copied,
+             clauses({{r.edges_split, "edge of more than two faces split", "edges of more than two faces split"},
+                      {r.edges_cut, "edge cut open", "edges cut open"},
+                      {r.points_copied, "copy of a point made", "copies of points made"}})},
+            {"orient", r.faces_reoriented,
+             clauses({{r.faces_reoriented, "face turned to agree with its neighbours",
+                       "faces turned to agree with their neighbours"}})},
+            {"stitch", r.stitched, clauses({{r.stitched, "edge stitched", "edges stitched"}})},
+            {"degenerate", r.degenerate_removed,
+             clauses({{r.degenerate_removed, "face without area removed", "faces without area removed"},
+                      {r.degenerate_left, "face without area left", "faces without area left"}})},
+            {"fill", r.holes_filled + r.open_components_dropped,
+             clauses({{r.holes_filled, "hole closed" + with_faces, "holes closed" + with_faces},
+                      {r.holes_faired, "of them faired", "of them faired"},
+                      {r.points_added, "point added", "points added"},
+                      {r.left_open.size(), "hole left open", "holes left open"},
+                      {r.open_components_dropped, "open component dropped", "open components dropped"}})},
+            {"orient_outward", r.shells_reoriented,
+             clauses({{r.shells_reoriented, "shell turned outwards", "shells turned outwards"}})},
+            {"fragments", r.fragments, fragments(r)},
+            {"resolve", r.resolved ? r.resolved->places : 0, resolving(r)},
+            {"pen_grooves", r.pen_grooves ? r.pen_grooves->count : 0, smoothing(r)},
+            {"alpha_wrap", r.alpha_wrapped ? std::size_t{1} : 0, wrapping(r)}};
 }
 
 std::vector<std::string> warnings(const RepairReport& r) {

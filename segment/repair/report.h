@@ -36,7 +36,7 @@ struct RepairReport {
     std::size_t of_doubled_components = 0;  // faces of flat doubled components, dropped
     std::size_t edges_split = 0;            // edges of three faces or more
     std::size_t edges_cut = 0;              // edges cut open because their faces cannot be oriented alike
-    std::size_t faces_turned = 0;           // to agree with their neighbours
+    std::size_t faces_reoriented = 0;       // to agree with their neighbours
     std::size_t stitched = 0;               // edges
     std::size_t points_copied = 0;          // where surfaces only touch
     std::size_t degenerate_removed = 0;
@@ -50,7 +50,7 @@ struct RepairReport {
     std::size_t open_component_faces = 0;     // of the scan, dropped with them
     std::size_t shells = 0;
     std::size_t cavities = 0;
-    std::size_t shells_turned = 0;
+    std::size_t shells_reoriented = 0;
     std::size_t overlapping = 0;      // shells inside another one that is oriented alike
     std::size_t left_inside_out = 0;  // shells inside out, but held by others that they touch
     std::size_t fragments = 0;

@@ -185,7 +185,7 @@ class Separation {
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (!is_turned_[t]) continue;
             std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
-            ++counts_.faces_turned;
+            ++counts_.faces_reoriented;
         }
     }
 

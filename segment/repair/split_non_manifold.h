@@ -18,11 +18,11 @@ struct SplitOptions {
 };
 
 struct SplitCounts {
-    std::size_t edges_split = 0;   // edges of three faces or more
-    std::size_t edges_cut = 0;     // cut open because the surface there is one-sided, or may not be turned
-    std::size_t stitched = 0;      // edges at which two components were joined
-    std::size_t faces_turned = 0;  // to agree with their neighbours: the fewest of each component
-    std::size_t copies = 0;        // of points
+    std::size_t edges_split = 0;       // edges of three faces or more
+    std::size_t edges_cut = 0;         // cut open because the surface there is one-sided, or may not be turned
+    std::size_t stitched = 0;          // edges at which two components were joined
+    std::size_t faces_reoriented = 0;  // to agree with their neighbours: the fewest of each component
+    std::size_t copies = 0;            // of points
 };
 
 // Precondition: equal points are welded.

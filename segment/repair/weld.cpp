@@ -173,7 +173,7 @@ WeldCounts weld(TriangleMesh& mesh, SourceFaces* sources) {
     return counts;
 }
 
-SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources) {
+SnapBorders snap_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources) {
     SnapBorders result;
     if (!(tolerance > 0) || edges(mesh).faults.open == 0) return result;
     std::vector<Vec3> moved = mesh.points;

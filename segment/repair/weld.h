@@ -30,6 +30,6 @@ struct SnapBorders {
 // For scans whose strips meet with a gap: only ends of open edges move, each to the first of its group; no group is
 // wider than the tolerance, and the ends of one edge are never merged. Precondition: equal points are welded. The
 // tolerance is in units of the mesh; 0 changes nothing.
-SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
+SnapBorders snap_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

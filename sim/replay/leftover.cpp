@@ -101,7 +101,7 @@ std::vector<const Closing*> closings_by(Closings& known, const ReplayScene& scen
     std::vector<const Closing*> closings;
     const std::size_t directions = milling_orientations(scene);
     for (std::size_t d = 0; d < directions; ++d) {
-        context.progress("directions closed", d, directions);
+        context.progress("orientations closed", d, directions);
         for (const Closing* closing : known.along(d, tools_of(d), context)) closings.push_back(closing);
     }
     return closings;

@@ -357,7 +357,7 @@ bool Walk::is_aligned(Vec3 tool_axis, SourcePlace place) {
     const double turn = std::atan2(norm(cross(tool_axis, wanted)), dot(tool_axis, wanted));
     if (turn <= aligned_turn) return true;
     log_.add(FindingKind::tool_axis, place, turn / degree, turn, [&] {
-        return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the direction of the chunk";
+        return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the orientation of the chunk";
     });
     return false;
 }
@@ -392,7 +392,7 @@ void Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, 
         tip.shift = from.shift + share * (to.shift - from.shift);
         const std::optional<Joints> next = arm_.follow(tip * flange_in_tip, joints_);
         if (!next) {
-            log_.add(FindingKind::reach, step.place, "no joints hold the pose on this branch");
+            log_.add(FindingKind::reach, step.place, "no joints hold the pose in this arm configuration");
             is_lost_ = true;
             return;
         }

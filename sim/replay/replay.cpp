@@ -20,7 +20,7 @@ void demand(bool holds, const char* what) {
 void check_scene(const ReplayScene& scene) {
     demand(scene.cell != nullptr && scene.cell->machine && scene.cell->machine->robot,
            "the cell file describes no robot");
-    demand(!scene.orientations.empty(), "the job has no direction");
+    demand(!scene.orientations.empty(), "the job has no orientation");
     demand(!scene.chunks.empty(), "the job names no program");
     const auto has_tool = [&](std::uint16_t number) {
         return std::ranges::count(scene.cell->machine->tools, number, &CuttingTool::number) > 0;
@@ -30,7 +30,7 @@ void check_scene(const ReplayScene& scene) {
     }
     for (const SceneChunk& chunk : scene.chunks) {
         demand(has_tool(chunk.tool), "a tool of the job is not in the cell file");
-        demand(chunk.orientation < scene.orientations.size(), "a direction of the job is not there");
+        demand(chunk.orientation < scene.orientations.size(), "an orientation of the job is not there");
     }
     const Vec3 size = scene.block.size();
     demand(size.x > 0 && size.y > 0 && size.z > 0, "the block has no size");
@@ -69,7 +69,7 @@ void judge_given_up(const ReplayReport& report, const ReplayOptions& options, Fi
     log.add(FindingKind::given_up, {}, share, share, [&] {
         return fixed(report.leftover.given_up_mm2() / 100, 1) + " cm2, " + fixed(100 * share, 2) +
                " % of the surface, keep foam that tools of the cell reach and the program gives up, most of it tool " +
-               std::to_string(most.tool) + " along direction " + std::to_string(most.orientation + 1) + "; at most " +
+               std::to_string(most.tool) + " in orientation " + std::to_string(most.orientation + 1) + "; at most " +
                fixed(100 * options.max_given_up, 2) +
                " % may be given up, unless the operator names by --tools the tools that may be used";
     });

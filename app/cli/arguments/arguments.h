@@ -36,7 +36,7 @@ struct InspectArguments {
 // How a scan becomes a solid, for every command that imports one.
 struct RepairChoiceArguments {
     bool size_ok = false;  // any size of the scan is taken
-    std::optional<double> weld_mm;
+    std::optional<double> snap_borders_mm;
     std::optional<std::string> fill;  // auto | flat | fair | none
     bool resolve_self_intersections = false;
     bool smooth_pen_grooves = false;

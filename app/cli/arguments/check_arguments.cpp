@@ -53,7 +53,7 @@ Action action_of(const SegmentArguments& a) {
 // The first option given that only a new project takes; empty: none.
 std::string new_project_option(const ProjectArguments& a, bool is_replay_given = false) {
     const bool is_repair_given =
-        a.weld_mm || a.fill || a.smooth_pen_grooves || a.alpha_wrap_mm || a.resolve_self_intersections;
+        a.snap_borders_mm || a.fill || a.smooth_pen_grooves || a.alpha_wrap_mm || a.resolve_self_intersections;
     const std::pair<bool, const char*> options[] = {{a.units.has_value(), "--units"},
                                                     {a.scale.has_value(), "--scale"},
                                                     {a.size_ok, "--size-ok"},

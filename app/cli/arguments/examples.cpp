@@ -29,7 +29,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper inspect femur.glb --deep
   qchopper inspect - --units mm --json < skull.stl.gz)"},
     {"repair", R"(  qchopper repair vertebra.ply --units mm -o solid.ply
-  qchopper repair femur.obj --units cm --weld 0.05 --fill fair --smooth-pen-grooves -o solid.ply)"},
+  qchopper repair femur.obj --units cm --snap-borders 0.05 --fill fair --smooth-pen-grooves -o solid.ply)"},
     {"prepare", R"(  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
   qchopper prepare femur.3mf --cell cells/foam-1.toml --preset femur --beam 3 -o femur.qch
   qchopper prepare femur.qch
@@ -54,7 +54,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper cells reach cells/kr60-ha.toml --tilt 30 --block 300,300,200)"},
     {"setup", R"(  qchopper setup vertebra.qch
   qchopper setup vertebra.qch --piece B
-  qchopper setup vertebra.qch --piece B --base 2 --directions 3)"},
+  qchopper setup vertebra.qch --piece B --base 2 --orientations 3)"},
     {"verify", R"(  qchopper verify vertebra.qch
   qchopper verify vertebra.qch --piece B
   qchopper verify B.qjob --cell cells/kr60-ha.toml)"},

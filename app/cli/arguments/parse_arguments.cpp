@@ -180,10 +180,12 @@ struct Parser {
         c->add_option("--max-faces", exported.max_faces,
                       "no more than so many faces a piece; the deviation is reported")
             ->check(number_between(4, many, "a count of faces from 4"));
-        c->add_option("--max-deviation", exported.max_deviation_mm,
+        const OptionCheck is_length = number_between(1e-9, many, "a length in mm above 0");
+        c->add_option("--max-distance", exported.max_distance_mm,
                       "with --max-faces: refuse what moves a surface by more than so many mm (1 % of the piece's "
                       "diagonal)")
-            ->check(number_between(1e-9, many, "a length in mm above 0"));
+            ->check(is_length);
+        c->add_option("--max-deviation", exported.max_distance_mm)->check(is_length)->group("");
         c->add_option("-o,--out", exported.out,
                       "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
         add_common(c, common, [this] { common.command = exported; });
@@ -224,15 +226,22 @@ struct Parser {
         CLI::Option* base = c->add_option("--base", setup.base, "lay the piece on the base of this number")
                                 ->check(number_between(0, 1e6, "the number of a base"))
                                 ->needs(piece);
-        CLI::Option* directions =
-            c->add_option("--directions", setup.max_directions, "carve it from at most so many directions (8)")
-                ->check(number_between(1, 264, "a count of directions from 1 to 264"))
+        const OptionCheck is_count = number_between(1, 264, "a count of orientations from 1 to 264");
+        CLI::Option* orientations =
+            c->add_option("--orientations", setup.max_directions, "carve it in at most so many tool orientations (8)")
+                ->check(is_count)
                 ->needs(piece);
+        CLI::Option* older = c->add_option("--directions", setup.max_directions)
+                                 ->check(is_count)
+                                 ->needs(piece)
+                                 ->excludes(orientations)
+                                 ->group("");
         CLI::Option* tools = add_tools(c, setup.tools)->needs(piece);
         c->add_flag("--auto", setup.is_free, "let the program choose again")
             ->needs(piece)
             ->excludes(base)
-            ->excludes(directions)
+            ->excludes(orientations)
+            ->excludes(older)
             ->excludes(tools);
         add_common(c, common, [this] { common.command = setup; });
     }

@@ -87,7 +87,7 @@ SearchSettings settings_of(const ProjectArguments& a, const std::string& preset_
 }
 
 RepairChoices repair_choices(const RepairChoiceArguments& a) {
-    return {a.weld_mm.value_or(0), a.fill ? *fill_named(*a.fill) : Fill::by_size, a.resolve_self_intersections,
+    return {a.snap_borders_mm.value_or(0), a.fill ? *fill_named(*a.fill) : Fill::by_size, a.resolve_self_intersections,
             a.smooth_pen_grooves, a.alpha_wrap_mm.value_or(0)};
 }
 
@@ -98,7 +98,7 @@ constexpr std::pair<const char*, bool RepairOptions::*> skippable_steps[] = {
     {"orient", &RepairOptions::orient},
     {"stitch", &RepairOptions::stitch},
     {"degenerate", &RepairOptions::remove_degenerate},
-    {"outwards", &RepairOptions::orient_outward}};
+    {"orient_outward", &RepairOptions::orient_outward}};
 
 }  // namespace
 
@@ -170,7 +170,8 @@ ImportOptions import_options_of(const RepairArguments& a) {
     ImportOptions options;
     if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
     options.scale = a.scale.value_or(1);
-    options.may_lack_unit = !a.weld_mm && !a.smooth_pen_grooves && !a.alpha_wrap_mm;  // no option has a length in mm
+    options.may_lack_unit =
+        !a.snap_borders_mm && !a.smooth_pen_grooves && !a.alpha_wrap_mm;  // no option has a length in mm
     RepairChoices choices = repair_choices(a);
     choices.resolve_self_intersections = !a.keep_self_intersections;
     RepairOptions& repair = options.repair;

@@ -25,8 +25,11 @@ void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
     c->add_flag("--size-ok", a.size_ok,
                 "take a scan that is shorter than 1 cm or longer than 20 m; without it that is asked on a terminal, "
                 "else refused");
-    c->add_option("--weld", a.weld_mm, "make one point of border points that lie within so many mm (off)")
-        ->check(number_between(0, many, "a length in mm"));
+    const OptionCheck is_tolerance = number_between(0, many, "a length in mm");
+    c->add_option("--snap-borders", a.snap_borders_mm,
+                  "make one point of border points that lie within so many mm (off)")
+        ->check(is_tolerance);
+    c->add_option("--weld", a.snap_borders_mm)->check(is_tolerance)->group("");
     c->add_option("--fill", a.fill,
                   "close holes flat, fair (refined, bent like the surface around), auto (small ones flat, large ones "
                   "fair) or none (auto)")
@@ -190,10 +193,12 @@ void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
         ->check(CLI::PositiveNumber);
     c->add_option("--mark-width", repair.groove_width)->check(CLI::PositiveNumber)->group("");
     c->add_option("--mark-depth", repair.groove_depth)->check(CLI::PositiveNumber)->group("");
-    c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, degenerate, outwards")
+    c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, degenerate, orient_outward")
         ->delimiter(',')
-        ->transform([](const std::string& step) { return step == "no_area" ? "degenerate" : step; })
-        ->check(one_of({"faces", "split", "orient", "stitch", "degenerate", "outwards"}));
+        ->transform([](const std::string& step) {
+            return step == "no_area" ? "degenerate" : step == "outwards" ? "orient_outward" : step;
+        })
+        ->check(one_of({"faces", "split", "orient", "stitch", "degenerate", "orient_outward"}));
     add_common(c, common, [&] { common.command = repair; });
 }
 
@@ -231,9 +236,9 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
                         "neither a place in the ranking nor nx,ny,nz,d"));
     c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
     c->add_flag("--write-pieces", segment.write_pieces, "write the pieces of the project folder after each decision");
-    c->add_flag("--undo", segment.undo, "take the last decision back");
-    c->add_flag("--redo", segment.redo, "put the decision that was taken back in force again");
-    c->add_flag("--reset", segment.reset, "take all cuts back; --undo brings them again");
+    c->add_flag("--undo", segment.undo, "undo the last decision");
+    c->add_flag("--redo", segment.redo, "redo the decision that was undone");
+    c->add_flag("--reset", segment.reset, "undo all cuts; --undo brings them back");
     c->add_flag("--auto", segment.goes_on, "let the search go on to the stop rules, given now or before");
     c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/user/plan-file.md)");
     c->add_option("--replay", segment.replayed, "make the cuts of a plan on this scan");

@@ -76,12 +76,18 @@ Json tool_json(const CuttingTool& tool) {
             {"shape", to_word(tool.shape)},
             {"diameter", tool.diameter},
             {"corner_radius", tool.corner_radius},
+            {"tip_angle_deg", tool.tip_angle > 0 ? Json(degrees(tool.tip_angle)) : Json()},
             {"flute_length", tool.flute_length},
             {"stick_out", tool.stick_out},
+            {"holder", list_of(tool.holder,
+                               [](const HolderStep& step) {
+                                   return Json{step.diameter, step.length};
+                               })},
             {"gauge_length", gauge_length(tool)},
             {"feed_mm_per_s", {tool.feed_min_mm_per_s, tool.feed_max_mm_per_s}},
             {"rpm", {tool.rpm_min, tool.rpm_max}},
             {"mass_kg", tool.mass_kg},
+            {"removal_mm3_per_s", tool.removal_mm3_per_s},
             {"length_measured", tool.is_length_measured}};
 }
 
@@ -112,7 +118,7 @@ Json machine_json(const CellMachine& machine, const Margins& margins) {
             {"margin", margins_json(margins)},
             {"holding",
              {{"cutting_force_n", machine.holding.cutting_force},
-              {"strength", machine.holding.strength},
+              {"joint_strength", machine.holding.strength},
               {"max_slenderness", machine.holding.max_slenderness}}},
             {"obstacles", list_of(machine.obstacles,
                                   [](const Obstacle& obstacle) {
@@ -166,7 +172,7 @@ std::string document(const std::vector<ListedCell>& cells) {
 
 std::string document(const ShownCell& shown) {
     const Cell& cell = shown.cell;
-    Json json = {{"schema", "qchopper-cell-1"},
+    Json json = {{"schema", "qchopper-cell-2"},
                  {"file", shown.file},
                  {"version", version},
                  {"name", cell.name},
@@ -188,17 +194,18 @@ std::string document(const ShownCell& shown) {
 
 std::string document(const PlacesInCell& places) {
     const BlockPlaces& map = places.map;
-    return text_of({{"schema", "qchopper-cell-reach-1"},
+    return text_of({{"schema", "qchopper-cell-reach-2"},
                     {"file", places.file},
                     {"block_mm", json_of(map.block)},
                     {"tilt_deg", degrees(map.tilt)},
                     {"step_mm", map.step},
                     {"places", list_of(map.places,
                                        [](const BlockPlace& place) {
-                                           return Json{{"x", place.x},
-                                                       {"y", place.y},
-                                                       {"on_table", place.is_on_table},
-                                                       {"margin", place.margin ? Json(*place.margin) : Json()}};
+                                           return Json{
+                                               {"x_mm", place.x},
+                                               {"y_mm", place.y},
+                                               {"on_table", place.is_on_table},
+                                               {"relative_margin", place.margin ? Json(*place.margin) : Json()}};
                                        })},
                     {"best", json_of(map.best)}});
 }

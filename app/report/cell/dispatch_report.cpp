@@ -23,7 +23,7 @@ Json job_json(const DispatchedJob& handed) {
     const JobOutcome& o = handed.outcome;
     return {{"piece", handed.piece},
             {"job_id", to_text(o.job_id)},
-            {"verdict", describe(o.start_outcome)},
+            {"start_outcome", describe(o.start_outcome)},
             {"is_ordered", handed.is_ordered},
             {"carved_before", o.milled_before},
             {"may_be_carved", o.may_be_milled},

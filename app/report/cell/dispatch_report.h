@@ -21,7 +21,7 @@ struct DispatchReport {
 };
 
 std::vector<std::string> lines(const DispatchReport& report);
-// `schema`: "qchopper-dry-run-1" or "qchopper-dispatch-1".
+// `schema`: "qchopper-dry-run-2" or "qchopper-dispatch-2".
 std::string document(const DispatchReport& report, const std::string& schema);
 
 }  // namespace qchopper

@@ -50,7 +50,7 @@ std::string checks_of(const MachineReachability& reachability) {
 
 std::string angles_of(const BlockPlacement& placement) {
     if (placement.table_angles.empty()) return {};
-    Rows rows{{right("direction"), right("rotary table, degrees")}};
+    Rows rows{{right("orientation"), right("rotary table, degrees")}};
     for (std::size_t d = 0; d < placement.table_angles.size(); ++d) {
         rows.push_back({right(std::to_string(d + 1)), right(degrees(placement.table_angles[d]))});
     }

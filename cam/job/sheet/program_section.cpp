@@ -13,7 +13,7 @@ namespace {
 using namespace sheet;
 
 std::string chunks_of(const JobProgram& program) {
-    Rows rows{{right("chunk"), word("file"), right("tool"), right("direction"), right("moves"), right("length, m")}};
+    Rows rows{{right("chunk"), word("file"), right("tool"), right("orientation"), right("moves"), right("length, m")}};
     for (const JobChunk& chunk : program.chunks) {
         rows.push_back({right(std::to_string(rows.size())), word(chunk.file), right(std::to_string(chunk.tool)),
                         right(std::to_string(chunk.orientation + 1)), right(with_commas(chunk.moves)),
@@ -30,7 +30,7 @@ std::string left_out_of(const JobProgram& program, const std::vector<std::uint16
     const std::string moves = describe(program.moves_left_out);
     if (!moves.empty()) html += paragraph("Left out: " + moves + ".");
     if (program.left_out.empty()) return html;
-    Rows rows{{right("tool left out"), right("direction"), word("because")}};
+    Rows rows{{right("tool left out"), right("orientation"), word("because")}};
     for (const ToolLeftOut& tool : program.left_out) {
         rows.push_back({right(tool.tool ? std::to_string(*tool.tool) : "all"),
                         right(tool.orientation ? std::to_string(*tool.orientation + 1) : "all"), word(tool.because)});

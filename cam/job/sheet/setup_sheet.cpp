@@ -82,7 +82,7 @@ std::string pictures(const JobInput& input) {
         return figure({file, setup_picture_width, setup_picture_height}, caption);
     };
     return "<div class=\"sides\">\n" +
-           side("setup-1.png", "From the side of -y, a little from above. Arrows: the directions of the tool.") +
+           side("setup-1.png", "From the side of -y, a little from above. Arrows: the tool orientations.") +
            side("setup-2.png", "From the side of +y, a little from below. P1, P2, P3: the points to touch off.") +
            "</div>\n" + keys_of(input);
 }
@@ -238,7 +238,7 @@ std::string left_out(const JobInput& input) {
     const std::string moves = describe(program.moves_left_out);
     if (!moves.empty()) html += paragraph(clipped("Foam stays: " + moves, longest_line) + ".");
     if (!program.left_out.empty()) {
-        html += paragraph("Tools or directions left out: " + std::to_string(program.left_out.size()) +
+        html += paragraph("Tools or orientations left out: " + std::to_string(program.left_out.size()) +
                           ", details.html says why.");
     }
     return html;

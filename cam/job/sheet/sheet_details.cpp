@@ -50,21 +50,22 @@ std::vector<Entry> direction_row(const Setup& setup, const std::string& name, co
 
 std::string direction_section(const JobInput& input) {
     const SurfaceAccess& access = input.setup.access;
-    const std::string arm = paragraph(access.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
-                                                            : "Arm not checked: whether it holds the tool in these "
-                                                              "directions is not known.");
-    if (access.orientations.empty()) return section("Directions", paragraph("None was chosen.") + arm);
-    Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
+    const std::string arm =
+        paragraph(access.is_arm_checked ? "Arm checked: it holds the tool in all these orientations."
+                                        : "Arm not checked: whether it holds the tool in these "
+                                          "orientations is not known.");
+    if (access.orientations.empty()) return section("Tool orientations", paragraph("None was chosen.") + arm);
+    Rows rows{{word("orientation"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
                right("depth")}};
     for (std::size_t i = 0; i < access.orientations.size(); ++i) {
         rows.push_back(direction_row(input.setup, std::to_string(i + 1), access.orientations[i]));
     }
     if (access.further) rows.push_back(direction_row(input.setup, "worth adding", *access.further));
     return section(
-        "Directions",
+        "Tool orientations",
         table(rows) +
             paragraph("Tilt: of the tool from the vertical. Azimuth: towards which the upper end of the tool "
-                      "then leans, from x towards y. Gained: reached by this direction and by none before "
+                      "then leans, from x towards y. Gained: reached in this orientation and in none before "
                       "it. Depth: from where the tool enters the block to the deepest surface.") +
             arm);
 }
@@ -102,9 +103,9 @@ std::string access_section(const JobInput& input) {
     }
     if (access.method == AccessMethod::mapped) {
         html += table({{word("foam that stays"), right("cm3"), right("depth, at most")},
-                       {word("where no tool of these directions reaches"), number(access.foam_mm3 / 1000, 1),
+                       {word("where no tool in these orientations reaches"), number(access.foam_mm3 / 1000, 1),
                         number(access.foam_depth_mm, 1)},
-                       {word("residue of the smallest tool's radius, besides"),
+                       {word("rest material of the smallest tool's radius, besides"),
                         number(access.rest_material_mm3 / 1000, 1), word("")}});
     } else {
         html +=
@@ -116,7 +117,7 @@ std::string access_section(const JobInput& input) {
 std::string alternative_section(const JobInput& input) {
     if (input.alternatives.empty()) return section("Other bases", paragraph("None."));
     Rows rows{{right("base"), word("what it is"), word("judged by"), right("unreachable, %"), right("foam, cm3"),
-               right("residue, cm3"), word("block"), right("directions")}};
+               right("rest material, cm3"), word("block"), right("orientations")}};
     for (const Alternative& other : alternatives_of(input)) {
         const bool is_mapped = other.method == AccessMethod::mapped;
         rows.push_back({right(std::to_string(other.base_number)), word(other.base_description),

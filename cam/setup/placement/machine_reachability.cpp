@@ -26,7 +26,7 @@ constexpr std::array<CheckRule, pose_checks> rules{{
     {PoseCheck::wrist, "wrist", "singularity of the wrist", "deg", 8, 10, true},
     {PoseCheck::joint_speed, "joint_speed", "joint speed at the feed", "deg/s", 0, 50, true},
     {PoseCheck::axis_step, "axis_step", "step of an axis from pose to pose", "deg", 0, 45, false},
-    {PoseCheck::one_configuration, "one_branch", "one branch of the arm", "%", 100, 100, false},
+    {PoseCheck::one_configuration, "one_configuration", "one arm configuration", "%", 100, 100, false},
     {PoseCheck::arm_to_block, "arm_to_block", "arm to block", "mm", 10, 50, true},
     {PoseCheck::arm_to_table, "arm_to_table", "arm to table", "mm", 10, 50, true},
     {PoseCheck::arm_to_floor, "arm_to_floor", "arm to floor", "mm", 10, 50, true},
@@ -63,12 +63,18 @@ const char* describe(PoseKind kind) {
 const char* describe(Remedy remedy) {
     constexpr std::array<const char*, 8> words{"none",
                                                "turn the tool about its axis",
-                                               "take another branch of the arm",
+                                               "take another arm configuration",
                                                "turn the table",
                                                "shift or turn the block on the table",
                                                "lay the piece on another base",
-                                               "take other directions",
+                                               "take other tool orientations",
                                                "cut the piece otherwise"};
+    return words[static_cast<std::size_t>(remedy)];
+}
+
+const char* to_word(Remedy remedy) {
+    constexpr std::array<const char*, 8> words{"none",        "tool_turn", "arm_configuration", "table_turn",
+                                               "block_shift", "base",      "orientations",      "cut"};
     return words[static_cast<std::size_t>(remedy)];
 }
 
@@ -95,7 +101,7 @@ std::string describe_pose(const ReachabilityPose& pose) {
     std::string text = describe(pose.kind);
     if (pose.kind == PoseKind::home || pose.kind == PoseKind::tool_change) return text;
     return text + " at " + tenths(pose.tip.x) + ", " + tenths(pose.tip.y) + ", " + tenths(pose.tip.z) +
-           " mm, direction " + std::to_string(pose.orientation + 1);
+           " mm, orientation " + std::to_string(pose.orientation + 1);
 }
 
 std::string describe_margin(const ReachabilityMargin& margin) {

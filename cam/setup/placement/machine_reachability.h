@@ -96,7 +96,7 @@ bool is_held(const ReachabilityMargin& margin);
 inline bool has_pose(const ReachabilityMargin& margin) {
     return margin.check != PoseCheck::block_on_table;
 }
-// "corner of the block at 300, -200, 390 mm, direction 2"; "home".
+// "corner of the block at 300, -200, 390 mm, orientation 2"; "home".
 std::string describe_pose(const ReachabilityPose& pose);
 // "arm to block, link 3 and the block: 12.5 mm (corner of the block at ...)".
 std::string describe_margin(const ReachabilityMargin& margin);
@@ -120,12 +120,15 @@ enum class Remedy : std::uint8_t {
     table_turn,
     block_shift,
     base,
-    directions,
+    orientations,
     cut
 };
 
-// "turn the tool about its axis", "another branch of the arm", ...
+// "turn the tool about its axis", "another arm configuration", ...
 const char* describe(Remedy remedy);
+
+// As documents name it: "none", "tool_turn", "arm_configuration", ...
+const char* to_word(Remedy remedy);
 
 struct MachineReachability {
     bool is_arm_checked = false;              // false: a cell without a machine; all else is empty then
@@ -133,7 +136,7 @@ struct MachineReachability {
     std::vector<ReachabilityMargin> margins;  // one per check that was made, in the order of PoseCheck
     std::vector<RegionReachability> regions;  // by direction; none for a gantry
     // If all holds: the last remedy that was needed, beginning with the block in the middle of the table, the tool not
-    // turned and the arm as at home. Else the nearest remedy that is left: base, directions or cut.
+    // turned and the arm as at home. Else the nearest remedy that is left: base, orientations or cut.
     Remedy remedy = Remedy::none;
     std::size_t poses = 0;   // checked at the final place
     std::size_t places = 0;  // of the block, tried

@@ -224,7 +224,7 @@ Remedy nearest_remedy(const MachineReachability& reachability, bool has_other_ba
                                           [](const RegionReachability& r) { return r.holds || r.orientation > 0; }) &&
                               std::any_of(reachability.regions.begin(), reachability.regions.end(),
                                           [](const RegionReachability& r) { return !r.holds; });
-    if (only_further) return Remedy::directions;
+    if (only_further) return Remedy::orientations;
     return has_other_base ? Remedy::base : Remedy::cut;
 }
 

@@ -125,7 +125,8 @@ class ReachabilityReporter {
         const double share = 100.0 * static_cast<double>(held) / static_cast<double>(region.poses.size());
         const double margin = share - rule.needed;
         keep({rule.check, margin, margin / rule.scale,
-              "a branch that holds " + std::to_string(held) + " of " + std::to_string(region.poses.size()) + " poses",
+              "an arm configuration that holds " + std::to_string(held) + " of " + std::to_string(region.poses.size()) +
+                  " poses",
               pose_at(d, region.poses[first_refused], block, posture.redundancy_angle, std::nullopt)},
              reachability);
     }

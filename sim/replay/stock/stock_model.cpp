@@ -225,9 +225,9 @@ StockRecord StockModel::record() const {
 void StockModel::start_from(const StockRecord& stock) {
     if (!is_equal(stock.block.min, block_.min) || !is_equal(stock.block.max, block_.max)) refuse_stock("another block");
     if (stock.cell != cell_) refuse_stock("other cells");
-    if (stock.maps.size() != maps_.size()) refuse_stock("other directions");
+    if (stock.maps.size() != maps_.size()) refuse_stock("other orientations");
     for (std::size_t d = 0; d < maps_.size(); ++d) {
-        if (!is_equal(stock.maps[d].tool_axis, tool_axes_[d])) refuse_stock("other directions");
+        if (!is_equal(stock.maps[d].tool_axis, tool_axes_[d])) refuse_stock("other orientations");
     }
     for (std::size_t d = 0; d < maps_.size(); ++d) lower(*maps_[d], stock.maps[d]);
 }

@@ -278,7 +278,7 @@ std::vector<Case> projects() {
          go_on,
          {"p.qch/project.json", "schema"},
          project_text(
-             [](const std::string& text) { return replaced(text, "qchopper-project-3", "qchopper-project-9"); })},
+             [](const std::string& text) { return replaced(text, "qchopper-project-4", "qchopper-project-9"); })},
         {"BrokenProjectInADryRun",
          exit_config,
          {"dry-run", "p.qch"},

@@ -60,7 +60,7 @@ TEST_F(Cells, ShowsWhatTheFileDescribes) {
         EXPECT_NE(shown.out.find(text), std::string::npos) << text << "\n" << shown.out;
     }
     const json robot = json::parse(run({"cells", "show", "cells/irb6640-185-2.8.toml", "--json"}).out);
-    EXPECT_EQ(robot["schema"], "qchopper-cell-1");
+    EXPECT_EQ(robot["schema"], "qchopper-cell-2");
     EXPECT_EQ(robot["machine"]["robot"]["lengths"]["c3"], 1392);
     EXPECT_NEAR(robot["machine"]["robot"]["axes"][1]["max_deg"].get<double>(), 85.1, 1e-9);
     EXPECT_EQ(robot["machine"]["tools"][0]["gauge_length"], 200);
@@ -78,7 +78,7 @@ TEST_F(Cells, TellsWhereABlockCanStand) {
         EXPECT_NE(shown.out.find(text), std::string::npos) << text << "\n" << shown.out;
     }
     const json map = json::parse(run({"cells", "reach", "cells/irb6640-185-2.8.toml", "--tilt", "30", "--json"}).out);
-    EXPECT_EQ(map["schema"], "qchopper-cell-reach-1");
+    EXPECT_EQ(map["schema"], "qchopper-cell-reach-2");
     EXPECT_NEAR(map["tilt_deg"].get<double>(), 30, 1e-9);
     EXPECT_EQ(map["best"]["arm_checked"], true);
     EXPECT_TRUE(map["best"]["margins"].contains("joint_limit"));

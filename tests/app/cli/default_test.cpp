@@ -155,7 +155,7 @@ TEST_F(Defaults, StepAndPreviewTellWhatEachPlaneLeavesOutOfReach) {
     EXPECT_NE(step.out.find("up to 10,560 planes, "), std::string::npos) << step.out;
     EXPECT_NE(step.out.find("unreachable: of the scan's surface, over all pieces"), std::string::npos) << step.out;
     const json proposed = json::parse(done({"segment", "p.qch", "--step", "--json"}).out)["proposal"];
-    EXPECT_EQ(proposed["most_judged"], 10560);
+    EXPECT_EQ(proposed["max_judged_planes"], 10560);
     EXPECT_LT(proposed["candidates"], 10560);
     double last = 0;
     std::map<int, std::vector<int>> offsets;  // by normal; of the refined plane too

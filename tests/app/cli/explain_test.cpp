@@ -42,7 +42,7 @@ TEST_F(Explain, FindsAgainWhatWasFoundWhenTheCutWasDecided) {
     for (const json& cut : cuts()) {
         const std::string number = std::to_string(cut["number"].get<int>());
         const json told = answer({"explain", "p.qch", "--cut", number, "--json", "-q"});
-        EXPECT_EQ(told["schema"], "qchopper-explain-2");
+        EXPECT_EQ(told["schema"], "qchopper-explain-3");
         ASSERT_EQ(cut["runners_up"].size(), 9U);
         EXPECT_EQ(told["piece"], cut["piece"]);
         EXPECT_EQ(told["pieces"], cut["pieces"]);
@@ -98,7 +98,7 @@ TEST_F(Explain, SaysThatAPlaneIsTheOperatorsOwn) {
     const json told = answer({"explain", "p.qch", "--json", "-q"});
     EXPECT_EQ(told["place"], nullptr);
     EXPECT_EQ(told["chosen"]["terms"], cuts()[0]["chosen"]["terms"]);
-    EXPECT_NE(told["verdict"].get<std::string>().find("operator's own"), std::string::npos);
+    EXPECT_NE(told["explanation"].get<std::string>().find("operator's own"), std::string::npos);
     const std::string plot = program::bytes_in(folder.path / "p.qch" / "pictures" / "cut-1.svg");
     EXPECT_NE(plot.find("Own normal"), std::string::npos);
 }

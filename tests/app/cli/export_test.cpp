@@ -110,7 +110,7 @@ TEST_F(Export, SimplifiedPiecesStateHowFarTheyAreOff) {
 }
 
 TEST_F(Export, TooFewFacesToKeepTheCapsIsADemandNotMet) {
-    const json made = document({"3mf", "--piece", "C", "--max-faces", "4", "--max-deviation", "1e6"}, 1);
+    const json made = document({"3mf", "--piece", "C", "--max-faces", "4", "--max-distance", "1e6"}, 1);
     for (const json& piece : made["pieces"]) EXPECT_GT(piece["faces"], 4);
     EXPECT_TRUE(fs::exists(folder.path / "p-C.3mf"));
 }
@@ -121,14 +121,14 @@ TEST_F(Export, ANumberOfFacesWithWhichAPieceLosesItsShapeIsRefused) {
     EXPECT_EQ(refused.code, 64);
     EXPECT_NE(refused.err.find("moves the surface of piece C by up to"), std::string::npos) << refused.err;
     EXPECT_NE(refused.err.find("1 % of its diagonal"), std::string::npos) << refused.err;
-    EXPECT_EQ(run({"stl", "--max-deviation", "1"}).code, 64);
+    EXPECT_EQ(run({"stl", "--max-distance", "1"}).code, 64);
     EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
     const json made = document({"stl", "--piece", "C", "--max-faces", "1500"});
     EXPECT_LE(made["pieces"][0]["faces"], 1500);
     EXPECT_EQ(made["pieces"][0]["simplified"]["crossings"], 0);
     const double moved = made["pieces"][0]["simplified"]["from_piece_mm"];
     EXPECT_EQ(
-        run({"stl", "--piece", "C", "--max-faces", "1500", "--max-deviation", std::to_string(moved / 2), "-o", "b.stl"})
+        run({"stl", "--piece", "C", "--max-faces", "1500", "--max-distance", std::to_string(moved / 2), "-o", "b.stl"})
             .code,
         64);
 }

@@ -53,7 +53,7 @@ TEST_F(Json, OfPrepare) {
     program::Arguments arguments = program::prepare_arguments("scan.ply");
     arguments.insert(arguments.end(), {"-o", "p.qch", "--json"});
     const program::Ended ended = run(arguments);
-    const json made = document(ended, "qchopper-prepare-4");
+    const json made = document(ended, "qchopper-prepare-5");
     EXPECT_EQ(made["cuts"].size(), 2U);
     EXPECT_EQ(made["all_fit"], true);
     double volume = 0;
@@ -67,7 +67,7 @@ TEST_F(Json, OfPrepare) {
             EXPECT_NE(ended.err.find("piece " + piece["name"].get<std::string>()), std::string::npos) << ended.err;
         }
     }
-    EXPECT_EQ(made["verdicts"], json::array()) << "only with the weight unreachable";
+    EXPECT_EQ(made["reviews"], json::array()) << "only with the weight unreachable";
     for (const json& fragment : made["fragments"]) volume += fragment["volume_mm3"].get<double>();
     const double scan = made["scan"]["volume_mm3"];
     EXPECT_NEAR(volume, scan, 1e-9 * scan);
@@ -83,7 +83,7 @@ TEST_F(Json, OfAPieceThatDoesNotFit) {
     program::put(folder.path / "low.toml", cell);
     const program::Ended ended =
         run({"prepare", "scan.ply", "--units", "mm", "--cell", "low.toml", "--min-cuts", "1", "-o", "p.qch", "--json"});
-    const json made = document(ended, "qchopper-prepare-4", 1);
+    const json made = document(ended, "qchopper-prepare-5", 1);
     EXPECT_EQ(made["all_fit"], false);
     for (const json& piece : made["pieces"]) {
         EXPECT_EQ(piece["fits"], false);
@@ -100,7 +100,7 @@ TEST_F(Json, OfDryRunWhichLeavesNothingBehind) {
     const program::Contents before = program::contents(folder.path);
     const program::Ended ended =
         program::run({"dry-run", "p.qch", "--json"}, {folder.path, "", false, folder.path / "tmp"});
-    const json handed = document(ended, "qchopper-dry-run-1");
+    const json handed = document(ended, "qchopper-dry-run-2");
     EXPECT_EQ(handed["simulated"], true);
     EXPECT_EQ(handed["all_complete"], true);
     EXPECT_EQ(handed["jobs"].size(), handed["jobs_wanted"]);
@@ -118,7 +118,7 @@ TEST_F(Json, OfCellSimAndDispatch) {
     const json listening = json::parse(cell.out());
     const json handed =
         document(run({"dispatch", "p.qch", "--piece", "C", "--to", listening["listening"], "--drop", "drop", "--json"}),
-                 "qchopper-dispatch-1");
+                 "qchopper-dispatch-2");
     EXPECT_EQ(handed["jobs"].size(), 1U);
     EXPECT_EQ(handed["simulated"], true);
     cell.signal(SIGTERM);

@@ -116,8 +116,8 @@ TEST_F(OrderedJob, AJobOfAnotherPieceOrProjectOrCellIsRefused) {
 
 TEST_F(OrderedJob, AJobThatDoesNotFitOrWasChangedIsRefused) {
     const auto misfit = [](std::map<std::string, Bytes>&, Json& manifest) {
-        manifest["envelope"]["fits"] = false;
-        manifest["envelope"]["margins"][0]["mm"] = -1.5;
+        manifest["stock_fit"]["fits"] = false;
+        manifest["stock_fit"]["margins"][0]["mm"] = -1.5;
     };
     forge(misfit, true);
     expect_refused(exit_mesh, "C.qjob states that its piece does not fit the cell");
@@ -168,7 +168,7 @@ TEST_F(OrderedJob, AnUnreachableJobIsSentOnlyWhenThatIsAccepted) {
 
     dispatch.push_back("--json");
     const Json document = Json::parse(program::run(dispatch, {folder.path}).out);
-    EXPECT_EQ(document["schema"], "qchopper-dispatch-1");
+    EXPECT_EQ(document["schema"], "qchopper-dispatch-2");
     EXPECT_EQ(document["all_complete"], false);
     EXPECT_EQ(document["jobs"].size(), 0U);
     EXPECT_EQ(document["refused"].size(), 1U);
@@ -187,7 +187,7 @@ TEST_F(OrderedJob, AnUnreachableJobIsSentOnlyWhenThatIsAccepted) {
 TEST_F(OrderedJob, AJobWhosePieceIsNotHeldIsSentOnlyWhenThatIsAccepted) {
     const auto unheld = [](std::map<std::string, Bytes>&, Json& manifest) {
         manifest["setup"]["workholding"] = {
-            {"cutting_force_n", 20.0}, {"joint_strength", 0.1}, {"max_slenderness", 4.0}, {"foam_strength", 0.6},
+            {"cutting_force_n", 20.0}, {"joint_strength", 0.1}, {"max_slenderness", 4.0}, {"bending_strength", 0.6},
             {"height", 214.0},         {"base_mm2", 460.0},     {"base_width", 24.2},     {"joint_force_n", 3.8},
             {"foam_force_n", 3.9},     {"narrowest_z", 0.0},    {"narrowest_mm2", 460.0}, {"passes", false},
             {"stand", nullptr}};

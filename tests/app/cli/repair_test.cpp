@@ -101,19 +101,39 @@ TEST_F(Repair, DocumentHoldsStepsCountsAndVerdict) {
     const Ended ended = run({"repair", "scan.ply", "--units", "cm", "-o", "solid.ply", "--json"});
     ASSERT_EQ(ended.code, exit_done) << ended.err;
     const json made = json::parse(ended.out);
-    for (const char* key :
-         {"schema",      "file",       "out",        "format",    "sha256", "units",  "faces_in",  "vertices_in",
-          "faces",       "vertices",   "faces_gone", "faces_new", "passes", "steps",  "counts",    "self_intersections",
-          "pen_grooves", "alpha_wrap", "left_open",  "closed",    "solid",  "volume", "deviation", "warnings",
-          "verdict"}) {
+    for (const char* key : {"schema",
+                            "file",
+                            "out",
+                            "format",
+                            "sha256",
+                            "units",
+                            "faces_in",
+                            "vertices_in",
+                            "faces",
+                            "vertices",
+                            "faces_gone",
+                            "faces_new",
+                            "passes",
+                            "steps",
+                            "counts",
+                            "self_intersections",
+                            "pen_grooves",
+                            "alpha_wrap",
+                            "left_open",
+                            "closed",
+                            "solid",
+                            "volume",
+                            "hausdorff_distance",
+                            "warnings",
+                            "verdict"}) {
         EXPECT_TRUE(made.contains(key)) << key;
     }
-    EXPECT_EQ(made["schema"], "qchopper-repair-2");
+    EXPECT_EQ(made["schema"], "qchopper-repair-3");
     EXPECT_EQ(made["units"], "cm");
     EXPECT_EQ(made["solid"], true);
     EXPECT_EQ(made["steps"][2]["step"], "faces");
     EXPECT_EQ(made["counts"]["faces_repeated"], 1);
-    EXPECT_EQ(made["deviation"]["unit"], "mm");
+    EXPECT_EQ(made["hausdorff_distance"]["unit"], "mm");
 }
 
 TEST_F(Repair, WhatIsNoSolidIsRefusedAndNothingIsWritten) {
@@ -129,8 +149,8 @@ TEST_F(Repair, WhatIsNoSolidIsRefusedAndNothingIsWritten) {
         {{"repair", "scan.ply"}, exit_use},
         {{"repair", "scan.ply", "-o", "new.ply", "--fill", "putty"}, exit_use},
         {{"repair", "scan.ply", "-o", "new.ply", "--skip", "everything"}, exit_use},
-        {{"repair", "scan.ply", "-o", "new.ply", "--weld", "-1", "--units", "mm"}, exit_use},
-        {{"repair", "scan.ply", "-o", "new.ply", "--weld", "1"}, exit_use},  // of what unit?
+        {{"repair", "scan.ply", "-o", "new.ply", "--snap-borders", "-1", "--units", "mm"}, exit_use},
+        {{"repair", "scan.ply", "-o", "new.ply", "--snap-borders", "1"}, exit_use},  // of what unit?
         {{"repair", "scan.ply", "-o", "old.ply"}, exit_create},
         {{"repair", "scan.ply", "-o", "scan.ply"}, exit_create},
         {{"repair", "scan.ply", "-o", "no/such/folder.ply"}, exit_create}};
@@ -153,7 +173,7 @@ TEST_F(Repair, StepsAreLeftOutAsAsked) {
                    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
                    return mesh;
                }()));
-    EXPECT_EQ(run({"repair", "inside.ply", "-o", "out.ply", "--skip", "outwards"}).code, exit_mesh);
+    EXPECT_EQ(run({"repair", "inside.ply", "-o", "out.ply", "--skip", "orient_outward"}).code, exit_mesh);
     EXPECT_EQ(run({"repair", "inside.ply", "-o", "out.ply"}).code, exit_done);
 }
 
@@ -165,12 +185,12 @@ TEST_F(Repair, StlIsWrittenWithAWordOnItsPrecision) {
 }
 
 TEST_F(Repair, ChoicesOfAProjectAreRemembered) {
-    program::Arguments arguments{"segment", "scan.ply", "--units", "mm",     "-o",
-                                 "p.qch",   "--fill",   "flat",    "--weld", "0.001"};
+    program::Arguments arguments{"segment", "scan.ply", "--units",        "mm",   "-o", "p.qch",
+                                 "--fill",  "flat",     "--snap-borders", "0.001"};
     ASSERT_EQ(run(arguments).code, exit_done);
     const json project = json::parse(program::bytes_in(folder.path / "p.qch/project.json"));
     EXPECT_EQ(project["scan"]["repair"]["fill"], "flat");
-    EXPECT_EQ(project["scan"]["repair"]["weld_mm"], 0.001);
+    EXPECT_EQ(project["scan"]["repair"]["snap_borders_mm"], 0.001);
     EXPECT_EQ(run({"segment", "p.qch", "--step", "--top", "1"}).code, exit_done);
     const Ended again = run({"segment", "p.qch", "--step", "--fill", "fair"});
     EXPECT_EQ(again.code, exit_use);

@@ -32,7 +32,7 @@ struct SetupCommand : ::testing::Test {
 
 TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
     const json all = document_of({"setup", "p.qch"});
-    EXPECT_EQ(all["schema"], "qchopper-setup-1");
+    EXPECT_EQ(all["schema"], "qchopper-setup-2");
     ASSERT_EQ(all["pieces"].size(), project()["pieces"].size());
     for (const json& piece : all["pieces"]) {
         const json one = document_of({"setup", "p.qch", "--piece", piece["name"]});
@@ -40,7 +40,7 @@ TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
         EXPECT_EQ(one["pieces"][0], piece) << "alone and among all";
         EXPECT_GE(piece["setups"].size(), 1U);
         EXPECT_EQ(piece["setups"][0]["reach"]["method"], "mapped");
-        EXPECT_EQ(piece["setups"][0]["reach"]["directions"][0]["tilt_deg"], 0.0) << "the first one is straight up";
+        EXPECT_EQ(piece["setups"][0]["reach"]["orientations"][0]["tilt_deg"], 0.0) << "the first one is straight up";
     }
     const program::Ended shown = run({"setup", "p.qch"});
     EXPECT_NE(shown.out.find("Arm not checked"), std::string::npos) << shown.out;
@@ -56,13 +56,13 @@ TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {
     const json jobs = project()["jobs"];
 
     const json changed =
-        document_of({"setup", "p.qch", "--piece", name, "--base", std::to_string(other), "--directions", "1"});
+        document_of({"setup", "p.qch", "--piece", name, "--base", std::to_string(other), "--orientations", "1"});
     EXPECT_EQ(changed["job_written"], true);
     EXPECT_EQ(changed["program"]["parts"], 0) << "the cell takes no programs";
     const json chosen = changed["pieces"][0]["setups"][0];
     EXPECT_EQ(chosen["base_number"], other);
-    EXPECT_EQ(chosen["reach"]["directions"].size(), 1U);
-    EXPECT_EQ(changed["pieces"][0]["ordered"]["base"], other);
+    EXPECT_EQ(chosen["reach"]["orientations"].size(), 1U);
+    EXPECT_EQ(changed["pieces"][0]["ordered"]["base_number"], other);
     ASSERT_EQ(project()["jobs"].size(), jobs.size());
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         EXPECT_EQ(project()["jobs"][i]["piece"], jobs[i]["piece"]) << "the order of the pieces";
@@ -84,7 +84,7 @@ TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {
 TEST_F(SetupCommand, UndoTakesTheChoiceBack) {
     const json before = document_of({"setup", "p.qch"});
     const std::string name = before["pieces"][0]["name"];
-    ASSERT_EQ(run({"setup", "p.qch", "--piece", name, "--directions", "1"}).code, 0);
+    ASSERT_EQ(run({"setup", "p.qch", "--piece", name, "--orientations", "1"}).code, 0);
     const program::Ended undone = run({"segment", "p.qch", "--undo"});
     EXPECT_EQ(undone.code, 0) << undone.err;
     EXPECT_NE(undone.out.find("Undo setup of piece " + name), std::string::npos) << undone.out;
@@ -136,7 +136,7 @@ TEST_F(SetupCommand, ASetupThatLeavesMoreOutOfReachThanMayBeIsWarnedOf) {
         {"prepare", "ball.ply", "--units", "mm", "--cell", cell, "--min-cuts", "0", "--no-programs", "-o", "ball.qch"});
     ASSERT_LE(made.code, 1) << made.err;
     const std::string words = "of its surface is out of reach, more than ";
-    const program::Ended decided = run({"setup", "ball.qch", "--piece", "A", "--directions", "1"});
+    const program::Ended decided = run({"setup", "ball.qch", "--piece", "A", "--orientations", "1"});
     EXPECT_EQ(decided.code, 0) << decided.err;
     EXPECT_NE(decided.err.find("warning: piece A: "), std::string::npos) << decided.err;
     EXPECT_NE(decided.err.find(words), std::string::npos) << decided.err;

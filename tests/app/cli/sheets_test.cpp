@@ -42,7 +42,7 @@ TEST_F(Sheets, FollowAnotherSetupAndItsUndoAndGoWithTheJobs) {
     const std::string before = program::bytes_in(file());
     const json project = json::parse(program::bytes_in(folder.path / "p.qch" / "project.json"));
     const std::string piece = project["jobs"][0]["piece"];
-    ASSERT_EQ(code_of({"setup", "p.qch", "--piece", piece, "--directions", "1", "-q"}), 0);
+    ASSERT_EQ(code_of({"setup", "p.qch", "--piece", piece, "--orientations", "1", "-q"}), 0);
     EXPECT_NE(program::bytes_in(file()), before);
     ASSERT_EQ(code_of({"segment", "p.qch", "--undo", "-q"}), 0);
     EXPECT_FALSE(fs::exists(file())) << "the job of that piece is not written";

@@ -55,10 +55,10 @@ TEST(AccessAdvice, OfEachKindNamesItsRemedy) {
     const std::vector<Row> table{
         {"holder", [](AdviceInput& i) { i.access.holder_mm2 = 30; }, AccessFault::holder, 0.03,
          "long-20 reaches 150 mm to its holder, while surface in sight lies up to 432 mm deep"},
-        {"chosen directions", [](AdviceInput& i) { i.access.hidden_mm2 = 40; }, AccessFault::few_directions, 0.04,
-         "SETUP --directions 12"},
+        {"chosen directions", [](AdviceInput& i) { i.access.hidden_mm2 = 40; }, AccessFault::few_orientations, 0.04,
+         "SETUP --orientations 12"},
         {"none worth it", [](AdviceInput& i) { i.access.hidden_mm2 = 40, i.access.orientations.resize(4); },
-         AccessFault::few_directions, 0.04, "by hand"},
+         AccessFault::few_orientations, 0.04, "by hand"},
         {"tilt", [](AdviceInput& i) { i.access.hidden_mm2 = 40, i.access.all_directions_share = 0.05; },
          AccessFault::tilt, 0.04, "a larger tilt than 60 degrees, or another cut: SEGMENT"},
         {"flat tool",

@@ -24,7 +24,7 @@ JobVerdict some_verdict() {
     verdict.findings = {{"rapid_in_foam", "qc_2_001.src", 17, "a rapid move removes foam"},
                         {"leftover", "", 0, "foam"}};
     verdict.findings_left_out = 4;
-    verdict.notes = {"no hold of the arm carries 6 mm of its cuts"};
+    verdict.notes = {"no arm posture reaches 6 mm of its cuts"};
     return verdict;
 }
 
@@ -71,8 +71,7 @@ TEST(JobVerdict, ChangesByHandAreRefused) {
     EXPECT_NE(refusal(with(text, "qchopper verdict", "qchopper job")).find("format"), std::string::npos);
     EXPECT_NE(refusal(with(text, "\"decimals\": 3", "\"decimals\": 30")).find("decimals"), std::string::npos);
     EXPECT_NE(refusal(with(text, "\"line\": 17", "\"line\": -1")).find("line"), std::string::npos);
-    EXPECT_NE(refusal(with(text, "\"no hold of the arm carries 6 mm of its cuts\"", "6")).find("notes"),
-              std::string::npos);
+    EXPECT_NE(refusal(with(text, "\"no arm posture reaches 6 mm of its cuts\"", "6")).find("notes"), std::string::npos);
     EXPECT_NE(refusal(text + " ").find("the one form"), std::string::npos);
     EXPECT_NE(refusal(text.substr(0, text.size() / 2)), "taken");
 }

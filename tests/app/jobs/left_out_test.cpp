@@ -83,7 +83,7 @@ TEST(LeftOut, WithoutTheFinestToolTheJobIsRefused) {
     job.program->left_out.push_back({finest, std::nullopt, "it is not needed"});
     const JobVerdict verdict = judged(job, grooved().cell);
     EXPECT_NE(kinds_of(verdict).find("given_up: "), std::string::npos) << kinds_of(verdict);
-    EXPECT_NE(kinds_of(verdict).find("tool 4 along direction"), std::string::npos) << kinds_of(verdict);
+    EXPECT_NE(kinds_of(verdict).find("tool 4 in orientation"), std::string::npos) << kinds_of(verdict);
     EXPECT_GT(figure(verdict, "given_up_percent"), 0.5);
     EXPECT_EQ(figure(verdict, "reachable_percent"), figure(grooved().verdict, "reachable_percent"))
         << "what is reachable does not depend on the program";

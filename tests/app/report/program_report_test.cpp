@@ -19,7 +19,7 @@ PieceReport some_report() {
     verdict.job = "Q.qjob";
     verdict.is_positive = true;
     verdict.figures = {{"moves_left_out_mm", "cuts left out", 6, "mm", 0}};
-    verdict.notes = {"no hold of the arm carries 6 mm of its cuts: link 5"};
+    verdict.notes = {"no arm posture reaches 6 mm of its cuts: link 5"};
     piece.verdicts = {verdict, verdict};
     return piece;
 }
@@ -28,7 +28,7 @@ TEST(ProgramReport, MovesThatAreLeftOutAreSaidOncePerPieceAndStandInEveryDocumen
     const PieceReport piece = some_report();
     const std::vector<std::string> warnings = program_warnings(piece, "p.qch");
     ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_EQ(warnings.front(), "piece Q: no hold of the arm carries 6 mm of its cuts: link 5");
+    EXPECT_EQ(warnings.front(), "piece Q: no arm posture reaches 6 mm of its cuts: link 5");
     const nlohmann::ordered_json json = program_json(piece);
     EXPECT_EQ(json["verdicts"][0]["figures"]["moves_left_out_mm"], 6);
     EXPECT_EQ(json["verdicts"][0]["notes"][0], piece.verdicts[0].notes[0]);

@@ -242,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 6; }, "schema 6 is not 7, the one that this program reads"},
+        {[](Json& j) { j["schema"] = 7; }, "schema 7 is not 8, the one that this program reads"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},
@@ -262,7 +262,7 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
          },
          "max is not three numbers"},
         {[](Json& j) { j["setup"]["box"]["max"][0] = 1; }, "different jobs"},
-        {[](Json& j) { j["envelope"]["fits"] = false; }, "contradicts"},
+        {[](Json& j) { j["stock_fit"]["fits"] = false; }, "contradicts"},
         {[](Json& j) { j["state"] = "ready"; }, "state contradicts the unreachable share and its limit"},
         {[](Json& j) { j["state"] = "maybe"; }, "state contradicts the unreachable share and its limit"},
         {[](Json& j) { j["max_unreachable"] = 0.9; }, "state contradicts the unreachable share and its limit"},
@@ -274,15 +274,15 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) { j["setup"]["workholding"]["base_width"] = -1; }, "base_width"},
         {[](Json& j) { j["setup"]["reach"]["method"] = "guessed"; }, "method is neither sampled nor mapped"},
         {[](Json& j) {
-             j["setup"]["reach"]["directions"][1]["out"] = {1, 2, 3};
+             j["setup"]["reach"]["orientations"][1]["tool_axis"] = {1, 2, 3};
          },
          "out is not of length 1"},
         {[](Json& j) { j["setup"]["reach"]["further"].erase("tilt_deg"); }, "tilt_deg is missing"},
         {[](Json& j) { j["setup"]["reach"].erase("further"); }, "further is missing"},
         {[](Json& j) { j["setup"].erase("base_number"); }, "base_number is missing"},
         {[](Json& j) { j["setup"]["spoil"] = -1; }, "spoil"},
-        {[](Json& j) { j["setup"]["placement"]["x"] = 5; }, "different jobs"},
-        {[](Json& j) { j["setup"]["placement"]["table_angles_rad"] = {0.5}; }, "table_angles_rad is not one per"},
+        {[](Json& j) { j["setup"]["placement"]["x_mm"] = 5; }, "different jobs"},
+        {[](Json& j) { j["setup"]["placement"]["table_angles_deg"] = {0.5}; }, "table_angles_deg is not one per"},
         {[](Json& j) { j["setup"]["setup_in_cell"] = Json::array(); }, "setup_in_cell is not one per angle"},
         {[](Json& j) {
              j["setup"]["setup_in_cell"][0]["rows"][2] = {0, 0, -1};
@@ -290,9 +290,9 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
          "setup_in_cell is not a rotation"},
         {[](Json& j) { j["work_envelope"]["holds"] = false; }, "different jobs"},
         {[](Json& j) { j["work_envelope"].erase("arm_checked"); }, "arm_checked is missing"},
-        {[](Json& j) { j["stock"]["offcuts"][0] = 3; }, "offcuts is not three numbers"},
+        {[](Json& j) { j["stock"]["offcuts_mm"][0] = 3; }, "offcuts_mm is not three numbers"},
         {[](Json& j) { j["alternatives"][0]["base_number"] = -1; }, "base_number is not a whole number"},
-        {[](Json& j) { j["envelope"]["margins"] = Json::array(); }, "margins is empty"},
+        {[](Json& j) { j["stock_fit"]["margins"] = Json::array(); }, "margins is empty"},
         {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "details.html does not match its SHA-256"},
         {[](Json& j) { j["files"][0]["size"] = 1; }, "details.html has another size"},
         {[](Json& j) { j["files"][0]["name"] = "../piece.stl"; }, "../piece.stl is missing"},

@@ -73,13 +73,13 @@ TEST(JobProgram, MovesThatAreLeftOutStandInManifestAndSheet) {
     const ReadJob job = parse_job(job_file(job_with_program()), "AB.qjob");
     for (const char* sheet : {"setup.html", "details.html"}) {
         EXPECT_NE(text_of(job.files.at(sheet))
-                      .find("no hold of the arm carries 7 mm of its cuts: operation 2 of the toolpath: link 5"),
+                      .find("no arm posture reaches 7 mm of its cuts: operation 2 of the toolpath: link 5"),
                   std::string::npos);
     }
     JobInput without = job_with_program();
     without.program->program.moves_left_out = {};
     const std::string whole = text_of(parse_job(job_file(without), "AB.qjob").files.at("setup.html"));
-    EXPECT_EQ(whole.find("no hold of the arm"), std::string::npos);
+    EXPECT_EQ(whole.find("no arm posture"), std::string::npos);
     without.program->program.moves_left_out.length_mm = 1;
     EXPECT_NE(refusal(job_file(without)).find("because contradicts the length"), std::string::npos);
 }
@@ -92,7 +92,7 @@ TEST(JobProgram, ToolsThatAreLeftOutStandInTheSheetAndNoOthersThanAllowedOnesAre
     const std::string details = text_of(job.files.at("details.html"));
     EXPECT_NE(details.find("carved with tools 1 and 7 alone"), std::string::npos);
     EXPECT_NE(details.find("tool 2 roughs"), std::string::npos);
-    EXPECT_NE(text_of(job.files.at("setup.html")).find("Tools or directions left out: "), std::string::npos);
+    EXPECT_NE(text_of(job.files.at("setup.html")).find("Tools or orientations left out: "), std::string::npos);
     input.setup.tools = {7};
     EXPECT_NE(refusal(job_file(input)).find("tool 1 of qc_2_001.src is none of those that are allowed"),
               std::string::npos);
@@ -206,7 +206,7 @@ TEST(JobProgram, AProgramThatContradictsItselfIsRefused) {
         {"files", [](auto& p) { p["files"][1] = "../qc_2.dat"; }},
         {"files", [](auto& p) { p["files"][1] = "qc_2.src"; }},
         {"file", [](auto& p) { p["chunks"][0]["file"] = "qc_2_009.src"; }},
-        {"direction", [](auto& p) { p["chunks"][0]["direction"] = 0; }},
+        {"orientation", [](auto& p) { p["chunks"][0]["orientation"] = 0; }},
         {"length_mm", [](auto& p) { p["chunks"][0]["length_mm"] = -1; }},
         {"chunks", [](auto& p) { p["chunks"] = nlohmann::ordered_json::array(); }},
         {"number", [](auto& p) { p["part"]["number"] = 2; }},

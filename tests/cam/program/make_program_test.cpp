@@ -311,7 +311,8 @@ TEST(MakeProgram, RefusesBadToolpathsByName) {
         "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].runs[1].moves.clear(); }), "run 2: has no moves"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].tool = 9; }), "tool is not in the cell file"), "");
-    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].orientation = 7; }), "direction is not of the setup"), "");
+    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].orientation = 7; }), "orientation is not of the setup"),
+              "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].feed = 900; }), "feed 900"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].rpm = 90; }), "speed of the spindle 90"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].runs[0].moves[3].tip.x = std::nan(""); }), "move 4"), "");

@@ -74,10 +74,11 @@ TEST(ReachableSetup, LeavesOutDirectionsThatAreNotHeld) {
     ASSERT_FALSE(place_block(choice.setups.front(), *piece.mesh, cell).holds()) << "the wall is where a tool leans";
     const ReachableSetup result = reachable_setup(piece, choice, cell, options);
     expect_held_at_its_place(result, piece, cell);
-    EXPECT_EQ(result.reachability.remedy, Remedy::directions);
+    EXPECT_EQ(result.reachability.remedy, Remedy::orientations);
     EXPECT_EQ(result.choice.setups.front().base_number, 1);
     EXPECT_NE(result.choice.setups.front().access.orientations, choice.setups.front().access.orientations);
-    EXPECT_NE(describe_reachability("A", result.reachability).find("needed: take other directions"), std::string::npos);
+    EXPECT_NE(describe_reachability("A", result.reachability).find("needed: take other tool orientations"),
+              std::string::npos);
 }
 
 TEST(ReachableSetup, RefusesWithThePairAndWhatIsLeftToDo) {

@@ -58,7 +58,7 @@ TEST(ImportedScan, EveryClosedShapeComesOutAsItWentIn) {
         EXPECT_EQ(imported.sha256, sha256(to_ply(mesh)));
         EXPECT_EQ(imported.report.repair.faces_in, mesh.triangles.size());
         EXPECT_EQ(imported.report.repair.shells, shells(mesh).count());
-        EXPECT_EQ(imported.report.repair.shells_turned, 0U) << shape.name;
+        EXPECT_EQ(imported.report.repair.shells_reoriented, 0U) << shape.name;
     }
 }
 
@@ -123,12 +123,12 @@ TEST(ImportedScan, TurnsWhatIsInsideOutAndKeepsCavities) {
                         shapes::ball({20, 4, 4}, 3)});
     const double volume = volume_mm3(hollow);
     const ImportedScan kept = imported_from(hollow);
-    EXPECT_EQ(kept.report.repair.shells_turned, 0U);
+    EXPECT_EQ(kept.report.repair.shells_reoriented, 0U);
     EXPECT_EQ(kept.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(kept.mesh), volume, 1e-9 * volume);
 
     const ImportedScan turned = imported_from(shapes::turned_inside_out(hollow));
-    EXPECT_EQ(turned.report.repair.shells_turned, 3U);
+    EXPECT_EQ(turned.report.repair.shells_reoriented, 3U);
     EXPECT_EQ(turned.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(turned.mesh), volume, 1e-9 * volume);
     EXPECT_TRUE(has_warning(turned.report, "inside out"));
@@ -137,7 +137,7 @@ TEST(ImportedScan, TurnsWhatIsInsideOutAndKeepsCavities) {
 TEST(ImportedScan, WarnsOfSolidsInSolids) {
     const ImportedScan imported =
         imported_from(shapes::joined({shapes::box({0, 0, 0}, {90, 90, 90}), shapes::ball({40, 40, 40}, 20)}));
-    EXPECT_EQ(imported.report.repair.shells_turned, 0U);
+    EXPECT_EQ(imported.report.repair.shells_reoriented, 0U);
     EXPECT_TRUE(has_warning(imported.report, "overlaps itself"));
 }
 
@@ -191,7 +191,7 @@ TEST(ImportedScan, RepairsEdgesThatAreNotManifold) {
     TriangleMesh turned = box;
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
     const ImportedScan agreeing = imported_from(turned);
-    EXPECT_EQ(agreeing.report.repair.faces_turned, 1U);
+    EXPECT_EQ(agreeing.report.repair.faces_reoriented, 1U);
     EXPECT_NEAR(volume_mm3(agreeing.mesh), 1000, 1e-9);
     EXPECT_TRUE(has_warning(agreeing.report, "1 face was turned"));
 
@@ -286,7 +286,7 @@ TEST(ImportedScan, ImportsTheRealScans) {
         EXPECT_GT(volume_mm3(imported.mesh), 0);
     }
     EXPECT_EQ(import_scan(real_mesh("ct_head_371k.ply"), {1, 1}).report.repair.cavities, 39U);
-    EXPECT_EQ(import_scan(real_mesh("nasty/made_inside_out.stl"), {1000, 1}).report.repair.shells_turned, 1U);
+    EXPECT_EQ(import_scan(real_mesh("nasty/made_inside_out.stl"), {1000, 1}).report.repair.shells_reoriented, 1U);
 }
 
 TEST(ImportedScan, RefusesTheRealScansThatAreNoSolids) {

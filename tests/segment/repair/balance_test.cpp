@@ -199,7 +199,7 @@ void expect_it_can_be_cut(TriangleMesh mesh, std::uint32_t seed, int planes) {
 
 void expect_nothing_was_filled(const RepairReport& report) {
     EXPECT_EQ(report.holes_filled + report.faces_added + report.points_added + report.open_components_dropped, 0U);
-    EXPECT_EQ(report.repeated + report.faces_turned + report.edges_cut + report.stitched, 0U);
+    EXPECT_EQ(report.repeated + report.faces_reoriented + report.edges_cut + report.stitched, 0U);
     EXPECT_EQ(report.open_edges, 0U);
 }
 

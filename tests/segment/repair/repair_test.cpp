@@ -112,9 +112,9 @@ TEST(Repair, StepsComeInTheirOrderWithWordsAndCounts) {
         names.push_back(step.name);
         EXPECT_EQ(step.count, 0U) << step.name;
     }
-    EXPECT_EQ(names,
-              (std::vector<std::string>{"weld", "weld_borders", "faces", "split", "orient", "stitch", "degenerate",
-                                        "fill", "outwards", "fragments", "resolve", "pen_grooves", "alpha_wrap"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"weld", "snap_borders", "faces", "split", "orient", "stitch",
+                                               "degenerate", "fill", "orient_outward", "fragments", "resolve",
+                                               "pen_grooves", "alpha_wrap"}));
 }
 
 TEST(Repair, StepsCanBeLeftOut) {
@@ -213,13 +213,13 @@ TEST(Repair, LengthsAreMillimetres) {
     TriangleMesh torn = unwelded(box);
     for (std::size_t v = 0; v < 12; ++v) torn.points[v].x += 1e-4;
     RepairOptions options;
-    options.weld_mm = 0.2;
+    options.snap_borders_mm = 0.2;
     options.mm_per_unit = 1000;  // the gap is 0.1 mm
     EXPECT_GT(repair(torn, options).report.borders_snapped, 0U);
-    options.weld_mm = 0.05;
+    options.snap_borders_mm = 0.05;
     EXPECT_EQ(repair(torn, options).report.borders_snapped, 0U);
     for (const double wrong : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        options.weld_mm = wrong;
+        options.snap_borders_mm = wrong;
         EXPECT_THROW(repair(torn, options), InputError);
     }
 }

@@ -31,13 +31,13 @@ TEST(SnapBorders, ClosesATornShape) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = torn(shape.mesh, 0.01);
         if (edges(mesh).faults.is_closed()) continue;  // two solids, one on each side
-        const SnapBorders counts = weld_borders(mesh, 0.02);
+        const SnapBorders counts = snap_borders(mesh, 0.02);
         EXPECT_GT(counts.welded, 0U) << shape.name;
         EXPECT_NEAR(counts.farthest, 0.01, 1e-6) << shape.name;
         EXPECT_TRUE(edges(mesh).faults.is_closed()) << shape.name;
         EXPECT_EQ(mesh.triangles.size(), shape.mesh.triangles.size()) << shape.name;
         const TriangleMesh once = mesh;
-        weld_borders(mesh, 0.02);
+        snap_borders(mesh, 0.02);
         EXPECT_EQ(mesh, once) << shape.name;
     }
 }
@@ -45,12 +45,12 @@ TEST(SnapBorders, ClosesATornShape) {
 TEST(SnapBorders, LeavesAWiderGapAndClosedShapesAlone) {
     const TriangleMesh open = torn(shapes::ball({0, 0, 0}, 25), 0.01);
     TriangleMesh mesh = open;
-    EXPECT_EQ(weld_borders(mesh, 0.005).welded, 0U);
+    EXPECT_EQ(snap_borders(mesh, 0.005).welded, 0U);
     EXPECT_EQ(mesh, open);
-    EXPECT_EQ(weld_borders(mesh, 0).welded, 0U);
+    EXPECT_EQ(snap_borders(mesh, 0).welded, 0U);
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh closed = shape.mesh;
-        EXPECT_EQ(weld_borders(closed, 1000).welded, 0U);
+        EXPECT_EQ(snap_borders(closed, 1000).welded, 0U);
         EXPECT_EQ(closed, shape.mesh) << shape.name;
     }
 }
@@ -66,7 +66,7 @@ TEST(SnapBorders, MovesNoPointFartherThanTheToleranceAndCollapsesNoFace) {
             soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
         }
         TriangleMesh mesh = soup;
-        const SnapBorders counts = weld_borders(mesh, tolerance);
+        const SnapBorders counts = snap_borders(mesh, tolerance);
         EXPECT_LE(counts.farthest, tolerance);
         EXPECT_EQ(mesh.triangles.size(), soup.triangles.size());
         EXPECT_EQ(mesh.points.size(), soup.points.size() - counts.welded);

@@ -65,7 +65,7 @@ TEST(SplitNonManifold, ClosedShapesStayAsTheyAre) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         SplitCounts counts;
         EXPECT_EQ(split(shape.mesh, &counts), shape.mesh) << shape.name;
-        EXPECT_EQ(counts.copies + counts.faces_turned + counts.edges_cut, 0U) << shape.name;
+        EXPECT_EQ(counts.copies + counts.faces_reoriented + counts.edges_cut, 0U) << shape.name;
     }
 }
 
@@ -83,7 +83,7 @@ TEST(SplitNonManifold, FacesThatDisagreeAreTurnedBack) {
         const TriangleMesh result = split(mesh, &counts);
         EXPECT_EQ(result.points, shape.mesh.points) << shape.name;
         EXPECT_TRUE(edges(result).faults.is_closed()) << shape.name;
-        EXPECT_LE(counts.faces_turned, turned) << shape.name;
+        EXPECT_LE(counts.faces_reoriented, turned) << shape.name;
         const Shells before = shells(shape.mesh);
         const Shells after = shells(result);
         ASSERT_EQ(after.count(), before.count()) << shape.name;

@@ -109,8 +109,8 @@ TEST(SheetDetails, TellTheFiguresOfATiltingTool) {
     EXPECT_EQ(row(details, "holder"), "holder | 0.3 | 1.50 | the tool is too short: its holder would touch");
     EXPECT_EQ(row(details, "unreachable together"), "unreachable together | 1.0 | 5.00 | ");
     EXPECT_EQ(row(details, "limit"), "limit |  | 2.00 | ");
-    EXPECT_EQ(row(details, "where no tool"), "where no tool of these directions reaches | 12.3 | 6.7");
-    EXPECT_EQ(row(details, "residue"), "residue of the smallest tool's radius, besides | 0.9 | ");
+    EXPECT_EQ(row(details, "where no tool"), "where no tool in these orientations reaches | 12.3 | 6.7");
+    EXPECT_EQ(row(details, "rest material"), "rest material of the smallest tool's radius, besides | 0.9 | ");
     EXPECT_EQ(row(details, "1 | without"),
               "1 | without a cap, lying on its side | height maps | 22.50 | 12.3 | 0.9 | 58 x 56 x 44 | 2");
     EXPECT_EQ(row(details, "3 | without"),

@@ -99,12 +99,12 @@ TEST(MachineReachability, IsTightestWhereSomethingCanBeDoneAboutIt) {
 TEST(MachineReachability, IsDescribedWithPosePairMarginAndRemedy) {
     EXPECT_EQ(describe_reachability("B", with(2, 3)),
               "piece B can be carved, tightest: joint limit, axis 5 and its upper limit: 2 deg "
-              "(tip on the piece at 10, -20, 30 mm, direction 2)");
+              "(tip on the piece at 10, -20, 30 mm, orientation 2)");
     MachineReachability refused = with(-4.25, 3);
     refused.remedy = Remedy::base;
     EXPECT_EQ(describe_reachability("B", refused),
               "piece B cannot be carved: joint limit, axis 5 and its upper limit: -4.3 deg "
-              "(tip on the piece at 10, -20, 30 mm, direction 2); to do: lay the piece on another base");
+              "(tip on the piece at 10, -20, 30 mm, orientation 2); to do: lay the piece on another base");
     EXPECT_EQ(describe_reachability("B", {}), "piece B: arm not checked");
 }
 

@@ -143,7 +143,8 @@ TEST(PlaceBlock, RefusesAConfigurationThatChangesInTheMiddleOfARegion) {
     const auto whole = at_placement(s.setup, poses_in_cell(s.setup, cell, way_out, tips(-200, 200)), cell);
     EXPECT_FALSE(whole.holds());
     const Keys keys = refusing(whole);
-    EXPECT_NE(std::find(keys.begin(), keys.end(), "one_branch"), keys.end()) << describe_reachability("A", whole);
+    EXPECT_NE(std::find(keys.begin(), keys.end(), "one_configuration"), keys.end())
+        << describe_reachability("A", whole);
     // Both halves are held, each by a configuration of its own.
     bool flipped[2] = {false, false};
     int half = 0;
