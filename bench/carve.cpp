@@ -135,27 +135,24 @@ void measure_sweep(const Measured& measured, const SampledScan& scan, Figures& f
         const Swept swept = shaved(measured, scan, sides);
         const std::vector<OwnedCap> caps = owned_caps(swept.piece);
         const JudgedPiece judged{scan, swept.accessibility, caps};
-        std::vector<TiltBase> bases;
-        bases.reserve(caps.size());
-        for (const OwnedCap& cap : caps) bases.push_back({-cap.outward, cap.cut});
         const double before = heap_bytes();
-        const AccessSweep sweep(swept.piece, judged, bases, default_tilt_deg);
+        const AccessSweep sweep(swept.piece, judged, default_tilt_deg);
         const double bytes = heap_bytes() - before;
         const double preparation =
-            best_of(runs, cpu_s, [&] { return std::make_unique<AccessSweep>(swept.piece, judged, bases, 60); });
+            best_of(runs, cpu_s, [&] { return std::make_unique<AccessSweep>(swept.piece, judged, 60); });
         const std::vector<Candidates> all = candidates_of(swept.piece, scan.directions);
         const double time = best_of(runs, cpu_s, [&] {
             double sum = 0;
             for (const Candidates& c : all) {
                 for (const PlaneAccess& plane : sweep.sweep(c.normal, c.offsets)) {
-                    sum += best_base(plane.above).unreachable_mm2 + best_base(plane.below).unreachable_mm2;
+                    sum += plane.unreachable_mm2();
                 }
             }
             return sum;
         });
-        const std::string what = "sweep of " + std::to_string(all.size()) + " normals, " +
-                                 std::to_string(bases.size()) + " old bases, " +
-                                 number_text(static_cast<double>(swept.accessibility.sample.size())) + " samples";
+        const std::string what = "sweep of " + std::to_string(all.size()) + " normals, " + std::to_string(caps.size()) +
+                                 " old bases, " + number_text(static_cast<double>(swept.accessibility.sample.size())) +
+                                 " samples";
         figures.record(
             measured.name, what,
             time_text(time) + ", preparation " + time_text(preparation) + ", " + number_text(bytes / 1e6) + " MB");
@@ -173,7 +170,7 @@ void measure_areas(const Measured& measured, const SampledScan& scan, Figures& f
         const Swept swept = shaved(measured, scan, sides);
         const std::vector<OwnedCap> caps = owned_caps(swept.piece);
         const JudgedPiece judged{scan, swept.accessibility, caps};
-        const AccessSweep sweep(swept.piece, judged, {}, default_tilt_deg);
+        const AccessSweep sweep(swept.piece, judged, default_tilt_deg);
         std::vector<double> errors;    // of the piece's area
         std::vector<double> relative;  // of the cap's area
         for (const Candidates& c : candidates_of(swept.piece, scan.directions)) {

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "bench/clock.h"
 #include "bench/reach_judge.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/piece_access.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/search.h"
 
@@ -74,7 +74,7 @@ class StateWriter {
         JudgeOptions judging;
         judging.tilt_deg = run_.tilt_deg;
         judging.samples = std::max(options_.min_samples, static_cast<std::size_t>(by_area));
-        return {judge(piece, judging), unreachable_mm2(piece, run_.tilt_deg)};
+        return {judge(piece, judging), area_on_best_base(piece, run_.tilt_deg).unreachable_mm2};
     }
 
     void write(const CarveState& s) {

@@ -14,7 +14,7 @@
 #include "bench/reach_judge.h"
 #include "bench/specimens.h"
 #include "bench/table_models.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/joint/piece_joints.h"
 #include "segment/joint/seam.h"
 #include "segment/mesh/measure.h"

@@ -75,9 +75,10 @@ void measure_mesh(const Measured& measured, Figures& figures) {
     const std::vector<PieceAccessibility> after = cut_accessibility(scan, whole, *made);
     const std::vector<OwnedCap> caps = owned_caps(made->pieces[0]);
     const JudgedPiece judged{scan, after[0], caps};
-    const auto judge = [&] { return min_unreachable(judged, oriented_box(mesh.points).axis, default_tilt_deg); };
-    figures.record(name, "unreachable share of its first piece", number_text(100 * judge().share()) + " %");
-    const TiltBase base{made->pieces[0].half_spaces[0].up(), 1};
+    const TiltBase base = lying_on(caps.front());
+    const double share =
+        unreachable_area(judged, base, default_tilt_deg).total_mm2(default_tilt_deg) / judged.surface_mm2(base);
+    figures.record(name, "unreachable share of its first piece", number_text(100 * share) + " %");
     const auto one = [&] { return unreachable_area(judged, base, default_tilt_deg); };
     figures.record(name, "its unreachable area for one base", time_text(best_of(runs, cpu_s, one)));
     const std::vector<Vec3> dense = dense_directions();

@@ -3,7 +3,6 @@
 #include "app/jobs/unreachable_of.h"
 
 #include "segment/access/piece_access.h"
-#include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
 
@@ -22,7 +21,7 @@ UnreachableOf unreachable_of(double tilt_deg) {
 
 std::optional<double> share_by_objective(const Piece& piece, double tilt_deg) {
     if (!piece.samples) return std::nullopt;
-    return min_unreachable(piece.samples->judged(), oriented_box(piece.mesh->points).axis, tilt_deg).share();
+    return area_on_best_base(piece, tilt_deg).share();
 }
 
 }  // namespace qchopper

@@ -20,6 +20,7 @@
 #include "segment/access/cap_outline.h"
 #include "segment/access/offset_counts.h"
 #include "segment/access/row_set.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/access/up_column.h"
 #include "segment/mesh/plane.h"
 
@@ -30,8 +31,8 @@ using RowSet = std::vector<Word>;
 
 // A base that the piece has already.
 struct OldBase {
-    std::size_t cap = 0;  // index of the caps
-    std::vector<std::uint8_t> cap_faces_away;
+    TiltBase base;
+    std::vector<std::uint8_t> cap_out_of_reach;  // per cap
     // Samples blocked along all allowed directions; below steep_counts_from_deg without the steep ones.
     BlockedRays blocked;
     // Samples that face up and are blocked along it.
@@ -47,10 +48,6 @@ struct OldBase {
 template <class Number>
 void sum_up(std::vector<Number>& values) {
     for (std::size_t i = 1; i < values.size(); ++i) values[i] += values[i - 1];
-}
-
-bool faces_away_from_all(const OwnedCap& cap, std::span<const Vec3> directions) {
-    return std::all_of(directions.begin(), directions.end(), [&](Vec3 d) { return faces_away(cap, d); });
 }
 
 // What one base has of the samples on one side of all planes of a normal, one entry per offset.
@@ -79,21 +76,21 @@ struct AccessSweep::Prepared {
     std::vector<OldBase> bases;
     std::vector<double> facing_up;  // rows x bases: cosine between normal and up where it is open, else 0
 
-    Prepared(const Piece& piece, const JudgedPiece& judged_piece, std::span<const TiltBase> old, double tilt)
+    Prepared(const Piece& piece, const JudgedPiece& judged_piece, double tilt)
         : judged(judged_piece),
           tilt_deg(tilt),
           steep_counts(tilt >= steep_counts_from_deg),
           rows(judged.accessibility.sample.size()),
           words(words_for(rows)),
           caps(outlines(*piece.mesh, judged.caps)),
-          facing_up(rows * old.size()) {
+          facing_up(rows * caps.size()) {
         for (std::size_t row = 0; row < rows; ++row) {
             point.push_back(judged.sample(row).point);
             normal.push_back(judged.sample(row).normal);
         }
         find_open();
         if (!steep_counts) find_steep();
-        for (const TiltBase& base : old) add_base(base, old.size());
+        for (std::size_t c = 0; c < caps.size(); ++c) add_base(c);
     }
 
     std::size_t directions() const { return judged.scan.directions.size(); }
@@ -146,31 +143,35 @@ struct AccessSweep::Prepared {
         return set;
     }
 
-    void add_base(const TiltBase& up_of, std::size_t all) {
-        const std::size_t number = bases.size();
-        const auto is_its_cap = [&](const CapOutline& c) { return is_base(c.cap(), up_of); };
-        const auto cap = std::find_if(caps.begin(), caps.end(), is_its_cap);
-        assert(cap != caps.end());
+    // Of the scan, and up if it is none of them.
+    std::vector<Vec3> directions_from(Vec3 up, std::span<const std::uint32_t> allowed) const {
         const std::vector<Vec3>& known = judged.scan.directions;
-        const std::vector<std::uint32_t> allowed = allowed_directions(known, up_of.up, tilt_deg);
         std::vector<Vec3> directions;
         directions.reserve(allowed.size() + 1);
         for (const std::uint32_t k : allowed) directions.push_back(known[k]);
-        if (index_of(known, up_of.up) == known.size()) directions.push_back(up_of.up);
-        const UpColumn column(judged.scan, judged.accessibility, up_of.up);
+        if (index_of(known, up) == known.size()) directions.push_back(up);
+        return directions;
+    }
+
+    // Each cap in turn is a base, so that bases and caps have the same numbers.
+    void add_base(std::size_t cap) {
+        const TiltBase base = lying_on(caps[cap].cap());
+        const std::vector<std::uint32_t> allowed = allowed_directions(judged.scan.directions, base.up, tilt_deg);
+        const std::vector<Vec3> directions = directions_from(base.up, allowed);
+        const UpColumn column(judged.scan, judged.accessibility, base.up);
         std::vector<OldBase::BlockedUp> blocked_up;
         RowSet open_up(words);
         for (std::uint32_t row = 0; row < rows; ++row) {
             const float distance = column.distance(row);
-            const double facing = dot(normal[row], up_of.up);
+            const double facing = dot(normal[row], base.up);
             if (std::isinf(distance)) {
                 set_bit(open_up, row);
-                facing_up[row * all + number] = facing;
+                facing_up[row * caps.size() + cap] = facing;
             } else if (distance > 0) {
                 blocked_up.push_back({row, distance, facing});
             }
         }
-        const RowSet set = blocked(up_of.up, allowed, open_up);
+        const RowSet set = blocked(base.up, allowed, open_up);
         std::vector<std::uint32_t> blocked_rows;
         for (std::uint32_t row = 0; row < rows; ++row) {
             if (has_bit(set, row)) blocked_rows.push_back(row);
@@ -178,13 +179,13 @@ struct AccessSweep::Prepared {
         const auto distance = [&](std::uint32_t row, std::uint32_t d) {
             return d < allowed.size() ? judged.accessibility.distances(row)[allowed[d]] : column.distance(row);
         };
-        bases.push_back({static_cast<std::size_t>(cap - caps.begin()), cap_faces_away(directions),
+        bases.push_back({base, caps_out_of_reach(base, directions),
                          BlockedRays(judged, std::move(blocked_rows), directions, distance), std::move(blocked_up)});
     }
 
-    std::vector<std::uint8_t> cap_faces_away(std::span<const Vec3> from) const {
+    std::vector<std::uint8_t> caps_out_of_reach(const TiltBase& base, std::span<const Vec3> directions) const {
         std::vector<std::uint8_t> result;
-        for (const CapOutline& c : caps) result.push_back(faces_away_from_all(c.cap(), from) ? 1 : 0);
+        for (const CapOutline& c : caps) result.push_back(is_out_of_reach(c.cap(), base, directions) ? 1 : 0);
         return result;
     }
 };
@@ -224,7 +225,7 @@ class AccessSweep::PlaneSweep {
  private:
     // The new base of one side.
     struct NewBase {
-        std::vector<std::uint8_t> cap_faces_away;
+        std::vector<std::uint8_t> cap_out_of_reach;
         RowSet blocked;
         RowSet open_up;
     };
@@ -232,23 +233,19 @@ class AccessSweep::PlaneSweep {
     NewBase new_base(Vec3 up) const {
         const std::vector<Vec3>& known = p_.judged.scan.directions;
         const std::vector<std::uint32_t> allowed = allowed_directions(known, up, p_.tilt_deg);
-        std::vector<Vec3> directions;
-        directions.reserve(allowed.size() + 1);
-        for (const std::uint32_t k : allowed) directions.push_back(known[k]);
         const std::size_t k = index_of(known, up);
         NewBase base;
         if (k < known.size()) {
             const std::span<const Word> open_up = p_.open_along(k);
             base.open_up.assign(open_up.begin(), open_up.end());
         } else {
-            directions.push_back(up);
             base.open_up.resize(p_.words);
             const PieceRays rays(p_.judged.scan, p_.judged.accessibility);
             for (std::size_t row = 0; row < p_.rows; ++row) {
                 if (std::isinf(rays.distance(row, up))) set_bit(base.open_up, row);
             }
         }
-        base.cap_faces_away = p_.cap_faces_away(directions);
+        base.cap_out_of_reach = p_.caps_out_of_reach({up, new_cut}, p_.directions_from(up, allowed));
         base.blocked = p_.blocked(up, allowed, base.open_up);
         return base;
     }
@@ -304,7 +301,7 @@ class AccessSweep::PlaneSweep {
                 SideOnBase s;
                 s.cut = new_cut;
                 for (std::size_t c = 0; c < p_.caps.size(); ++c) {
-                    if (base.cap_faces_away[c] != 0) s.caps_mm2 += cap_area(c, j, is_above);
+                    if (base.cap_out_of_reach[c] != 0) s.caps_mm2 += cap_area(c, j, is_above);
                 }
                 s.unreachable_mm2 = area_each() * blocked + s.caps_mm2;
                 s.base_mm2 = new_cap_[j];
@@ -351,28 +348,29 @@ class AccessSweep::PlaneSweep {
     }
 
     void add_old_base(std::vector<PlaneAccess>& result, std::size_t number, std::span<const double> open_up) const {
-        const OldBase& base = p_.bases[number];
-        const BothSides sums = old_base_sums(base, number, open_up);
+        const OldBase& old = p_.bases[number];
+        const BothSides sums = old_base_sums(number, open_up);
         const OwnedCap below{new_cut, normal_, 0};
         const OwnedCap above{new_cut, -normal_, 0};
-        add_old_side(result, base, sums.below, false, faces_away_from_all(below, base.blocked.directions()));
-        add_old_side(result, base, sums.above, true, faces_away_from_all(above, base.blocked.directions()));
+        const std::vector<Vec3>& directions = old.blocked.directions();
+        add_old_side(result, number, sums.below, false, is_out_of_reach(below, old.base, directions));
+        add_old_side(result, number, sums.above, true, is_out_of_reach(above, old.base, directions));
     }
 
-    void add_old_side(std::vector<PlaneAccess>& result, const OldBase& base, const SideSums& sums, bool is_above,
-                      bool new_cap_faces_away) const {
+    void add_old_side(std::vector<PlaneAccess>& result, std::size_t number, const SideSums& sums, bool is_above,
+                      bool is_new_cap_out_of_reach) const {
+        const OldBase& old = p_.bases[number];
         for (std::size_t j = 0; j < offsets_.size(); ++j) {
             SideOnBase s;
-            s.cut = p_.caps[base.cap].cap().cut;
-            s.base_mm2 = cap_area(base.cap, j, is_above);
+            s.cut = p_.caps[number].cap().cut;
+            s.base_mm2 = cap_area(number, j, is_above);
             if (s.base_mm2 <= 0) continue;
-            if (new_cap_faces_away) s.caps_mm2 += new_cap_[j];
+            if (is_new_cap_out_of_reach) s.caps_mm2 += new_cap_[j];
             for (std::size_t c = 0; c < p_.caps.size(); ++c) {
-                if (c != base.cap && base.cap_faces_away[c] != 0) s.caps_mm2 += cap_area(c, j, is_above);
+                if (old.cap_out_of_reach[c] != 0) s.caps_mm2 += cap_area(c, j, is_above);
             }
             s.unreachable_mm2 = area_each() * sums.unreachable[j] + s.caps_mm2;
-            s.projected_mm2 = std::max(0.0, area_each() * sums.projected[j]) +
-                              caps_facing(-p_.caps[base.cap].cap().outward, j, is_above);
+            s.projected_mm2 = std::max(0.0, area_each() * sums.projected[j]) + caps_facing(old.base.up, j, is_above);
             (is_above ? result[j].above : result[j].below).push_back(s);
         }
     }
@@ -387,7 +385,8 @@ class AccessSweep::PlaneSweep {
         return sum;
     }
 
-    BothSides old_base_sums(const OldBase& base, std::size_t number, std::span<const double> open_up) const {
+    BothSides old_base_sums(std::size_t number, std::span<const double> open_up) const {
+        const OldBase& old = p_.bases[number];
         const std::size_t planes = offsets_.size();
         BothSides sums;
         // Below, a sample counts from its entry on; above, before its entry.
@@ -397,8 +396,8 @@ class AccessSweep::PlaneSweep {
             up_below[bin] += open_up[bin * p_.bases.size() + number];
             up_above[bin] += open_up[bin * p_.bases.size() + number];
         }
-        const double up_slope = dot(normal_, -p_.caps[base.cap].cap().outward);
-        for (const OldBase::BlockedUp& b : base.blocked_up) {
+        const double up_slope = dot(normal_, old.base.up);
+        for (const OldBase::BlockedUp& b : old.blocked_up) {
             const double leaves_at = height_[b.row] + static_cast<double>(b.distance) * up_slope;
             if (up_slope > 0) {
                 up_below[planes_[b.row]] += b.facing;
@@ -411,7 +410,7 @@ class AccessSweep::PlaneSweep {
         sum_up(up_below);
         std::reverse(up_above.begin(), up_above.end());
         sum_up(up_above);
-        const Blocked blocked = old_base_blocked(base);
+        const Blocked blocked = old_base_blocked(old);
         std::uint32_t below = 0;
         std::uint32_t above = 0;
         for (const std::uint32_t count : blocked.above) above += count;
@@ -471,15 +470,29 @@ class AccessSweep::PlaneSweep {
     std::vector<double> new_cap_;                 // per offset: mm2
 };
 
-AccessSweep::AccessSweep(const Piece& piece, const JudgedPiece& judged, std::span<const TiltBase> bases,
-                         double tilt_deg)
-    : prepared_(std::make_unique<const Prepared>(piece, judged, bases, tilt_deg)) {}
+AccessSweep::AccessSweep(const Piece& piece, double tilt_deg) : AccessSweep(piece, piece.samples->judged(), tilt_deg) {}
+
+AccessSweep::AccessSweep(const Piece& piece, const JudgedPiece& judged, double tilt_deg)
+    : prepared_(std::make_unique<const Prepared>(piece, judged, tilt_deg)) {}
 
 AccessSweep::~AccessSweep() = default;
 
 std::vector<PlaneAccess> AccessSweep::sweep(Vec3 normal, std::span<const double> offsets) const {
     if (offsets.empty()) return {};
     return PlaneSweep(*prepared_, normal, offsets).run();
+}
+
+std::vector<CutAccess> cut_access(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg) {
+    const double scan_mm2 = scan_area_mm2(piece);
+    std::vector<CutAccess> access;
+    for (const PlaneAccess& plane : AccessSweep(piece, tilt_deg).sweep(normal, offsets)) {
+        access.push_back({plane.unreachable_mm2(), scan_mm2});
+    }
+    return access;
+}
+
+CutAccess cut_access(const Piece& piece, const Plane& plane, double tilt_deg) {
+    return cut_access(piece, plane.normal, {&plane.offset, 1}, tilt_deg).front();
 }
 
 }  // namespace qchopper

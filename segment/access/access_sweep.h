@@ -30,26 +30,30 @@ struct SideOnBase {
     double caps_mm2 = 0;         // of it caps that face away from all allowed directions
     double base_mm2 = 0;         // area of that cap on this side; of the new cap measured on the samples
     double projected_mm2 = 0;    // of the side along the base's up, measured on the samples
-    bool is_stable() const { return base_mm2 >= min_base_share * projected_mm2; }
-};
-
-// The ingredients of one plane: other weights need no new sweep.
-struct PlaneAccess {
-    std::vector<SideOnBase> above;  // the new base first, then the old ones that have a part of their cap on this side
-    std::vector<SideOnBase> below;
+    bool is_stable() const { return carries(base_mm2, projected_mm2); }
 };
 
 // The base with the least area of those that carry the side, of all if none carries it; the first of several.
 // Precondition: there is one.
 const SideOnBase& best_base(std::span<const SideOnBase> bases);
 
+// The ingredients of one plane: other weights need no new sweep.
+struct PlaneAccess {
+    std::vector<SideOnBase> above;  // the new base first, then the old ones that have a part of their cap on this side
+    std::vector<SideOnBase> below;
+    // Of both sides, each on its best base.
+    double unreachable_mm2() const { return best_base(above).unreachable_mm2 + best_base(below).unreachable_mm2; }
+};
+
 // What all normals share: the directions that are open at each sample, the allowed ones of every base.
 class AccessSweep {
  public:
-    // `judged` is that of `piece`, with all its caps; what it refers to must outlive this. `bases` are caps of the
-    // piece: those of bases_of, or all, because a cap too small for the piece may carry a side. O(triangles + samples x
-    // directions), and a ray per sample for a base whose up is not a direction of the scan.
-    AccessSweep(const Piece& piece, const JudgedPiece& judged, std::span<const TiltBase> bases, double tilt_deg);
+    // On the samples of the piece, which must outlive this. Precondition: it has some. Old bases are all its caps: one
+    // too small for the piece may carry a side. O(triangles + samples x directions), and a ray per sample for a base
+    // whose up is not a direction of the scan.
+    AccessSweep(const Piece& piece, double tilt_deg);
+    // `judged` is that of `piece`, with all its caps; what it refers to must outlive this.
+    AccessSweep(const Piece& piece, const JudgedPiece& judged, double tilt_deg);
     ~AccessSweep();
     AccessSweep(const AccessSweep&) = delete;
     AccessSweep& operator=(const AccessSweep&) = delete;
@@ -64,5 +68,9 @@ class AccessSweep {
     class PlaneSweep;
     std::unique_ptr<const Prepared> prepared_;
 };
+
+// Of planes with one normal, by a sweep of their own: the piece has samples. Otherwise as AccessSweep::sweep.
+std::vector<CutAccess> cut_access(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg);
+CutAccess cut_access(const Piece& piece, const Plane& plane, double tilt_deg);
 
 }  // namespace qchopper

@@ -27,8 +27,8 @@ bool is_steep(Vec3 normal, std::span<const Vec3> directions) {
                        [&](Vec3 d) { return std::abs(dot(normal, d)) < min_facing; });
 }
 
-// What directions reach: the rows of the piece as bits, and from the next whole word on its caps. The base's cap is
-// never reached.
+// What directions reach: the rows of the piece as bits, and from the next whole word on its caps. Caps that do not
+// count are never reached.
 class ReachedSets {
  public:
     ReachedSets(const JudgedPiece& piece, const TiltBase& base, std::span<const std::uint32_t> possible)
@@ -74,10 +74,10 @@ class ReachedSets {
             caps_area([&](std::size_t c) { return has_bit(set, cap_bit(c)) && !has_bit(covered, cap_bit(c)); });
         return piece_.scan.samples.area_each_mm2 * static_cast<double>(count) + on_caps;
     }
-    // The caps but the base that are not in the set: steep to one of the directions, or turned away from all.
+    // The caps that count and are not in the set: steep to one of the directions, or turned away from all.
     UnreachableArea caps_left(std::span<const Word> covered, std::span<const Vec3> directions) const {
         const auto is_left = [&](std::size_t c) {
-            return !is_base(piece_.caps[c], base_) && !has_bit(covered, cap_bit(c));
+            return counts_as_surface(piece_.caps[c], base_) && !has_bit(covered, cap_bit(c));
         };
         UnreachableArea left;
         left.caps_mm2 = caps_area(is_left);
@@ -90,7 +90,7 @@ class ReachedSets {
     void add_caps(Vec3 direction, std::span<Word> set) const {
         for (std::size_t c = 0; c < piece_.caps.size(); ++c) {
             const bool faces = dot(piece_.caps[c].outward, direction) >= min_facing;
-            if (faces && !is_base(piece_.caps[c], base_)) set_bit(set, cap_bit(c));
+            if (faces && counts_as_surface(piece_.caps[c], base_)) set_bit(set, cap_bit(c));
         }
     }
 
@@ -262,7 +262,7 @@ ChosenDirections choose_directions(const JudgedPiece& piece, const TiltBase& bas
                                    const DirectionOptions& options) {
     assert(options.max_directions >= 1);
     const ReachedSets sets(piece, base, possible);
-    const double min_mm2 = options.min_gain * piece.area_without_base_mm2(base);
+    const double min_mm2 = options.min_gain * piece.surface_mm2(base);
 
     ChosenDirections result;
     std::vector<Vec3> chosen;

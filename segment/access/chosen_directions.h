@@ -3,9 +3,9 @@
 // mm2, for a tool of radius zero. The first direction is always the base's up. Greedy set cover by uncovered area is
 // that of Mahdavi-Amiri et al., "VDAC: volume decompose-and-carve for subtractive manufacturing" (2020). After each
 // addition every direction but up, in turn, gives way to that with which all reach most, if this is more. So neither an
-// exchange nor a larger max_directions makes the unreachable area larger. Area is that of samples and of caps but the
-// base; both are reached along directions that they face by at least min_facing, as by height fields. The same for any
-// number of threads (tests/segment/access/chosen_directions_test.cpp).
+// exchange nor a larger max_directions makes the unreachable area larger. Area is that of samples and of caps that
+// count on the base; both are reached along directions that they face by at least min_facing, as by height fields. The
+// same for any number of threads (tests/segment/access/chosen_directions_test.cpp).
 
 #pragma once
 
@@ -21,7 +21,7 @@ namespace qchopper {
 
 struct DirectionOptions {
     std::size_t max_directions = 8;  // at least 1
-    double min_gain = 0.005;         // a further direction adds at least this share of the area without base, and not 0
+    double min_gain = 0.005;         // a further direction adds at least this share of the surface, and not 0
 };
 
 enum class SampleAccess : std::uint8_t { reached, steep, hidden };
@@ -36,11 +36,11 @@ struct ChosenDirections {
     // that may be less than min_gain.
     std::vector<ChosenDirection> chosen;
     std::vector<SampleAccess> samples;  // per row of the piece, with the chosen directions
-    UnreachableArea by_chosen;          // with the chosen directions; area without base less all gains
+    UnreachableArea by_chosen;          // with the chosen directions; the surface less all gains
     // With up, all that are possible, and the dense ones; steep is surface that is so to up or to a possible one.
     UnreachableArea by_all;
     // Of the dense directions that are possible the one that reaches most of what no chosen one reaches, if it gains
-    // at least min_gain of the area without base.
+    // at least min_gain of the surface.
     std::optional<ChosenDirection> further;
 };
 

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/access/tool_directions.h"
 
 namespace qchopper {
@@ -40,7 +41,7 @@ struct DenseAccess::Asked {
         : piece(of),
           tilt_deg(tilt),
           judged(of.samples->judged()),
-          sweep(access_sweep(of, tilt)),
+          sweep(of, tilt),
           rays(judged.scan, judged.accessibility),
           dense(dense_directions()),
           stride((judged.accessibility.sample.size() + max_asked - 1) / max_asked),
@@ -96,7 +97,7 @@ struct DenseAccess::Asked {
         if (best.unreachable_mm2 <= 0) return 0;
         Side side{plane, is_above, is_above ? plane.normal : -plane.normal};
         for (const OwnedCap& cap : judged.caps) {
-            if (cap.cut == best.cut) side.up = -cap.outward;
+            if (cap.cut == best.cut) side.up = lying_on(cap).up;
         }
         return std::max(0.0, best.unreachable_mm2 - opened_mm2(side));
     }

@@ -1,4 +1,5 @@
-// One set of rays per piece, along the directions that some base allows; then every base chooses its own among them.
+// Along chosen directions: one set of rays per piece, along the directions that some base allows; then every base
+// chooses its own among them. O(samples x directions x bases) and the rays.
 
 #include "segment/access/piece_access.h"
 
@@ -7,6 +8,9 @@
 #include <cassert>
 #include <utility>
 
+#include "segment/cut/cut_evaluation.h"
+#include "segment/cut/cut_piece.h"
+#include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/raster/projected_area.h"
 
@@ -21,11 +25,22 @@ std::vector<PieceBase> sides_of(const Piece& piece) {
             PieceBase side;
             side.number = static_cast<int>(sides.size()) + 1;
             side.base.up = sign * box.axis[static_cast<std::size_t>(axis)];
-            side.projected_mm2 = projected_area_mm2(*piece.mesh, side.base.up);
             sides.push_back(side);
         }
     }
     return sides;
+}
+
+// `projected_mm2(up)`: the projected area of the piece.
+template <class Projected>
+std::vector<PieceBase> caps_that_carry(std::span<const OwnedCap> caps, const Projected& projected_mm2) {
+    std::vector<PieceBase> bases;
+    for (const OwnedCap& cap : caps) {
+        const TiltBase base = lying_on(cap);
+        const double projected = projected_mm2(base.up);
+        if (carries(cap.area_mm2, projected)) bases.push_back({cap.cut, base, cap.area_mm2, projected});
+    }
+    return bases;
 }
 
 // The directions of the scan that some base allows, and the ups of all bases, so that no ray is cast twice for them.
@@ -84,9 +99,11 @@ BaseAccess base_access(const SampledPiece& samples, const PieceBase& base, const
         further = dense_directions();
         std::erase_if(further, [&](Vec3 d) { return !is_allowed(d, base.base.up, options.tilt_deg); });
     }
-    BaseAccess access{base, choose_directions(judged, base.base, possible, those_held(base, std::move(further), held),
-                                              options.directions)};
-    access.area_mm2 = judged.area_without_base_mm2(base.base);
+    BaseAccess access;
+    access.base = base;
+    access.directions =
+        choose_directions(judged, base.base, possible, those_held(base, std::move(further), held), options.directions);
+    access.area_mm2 = judged.surface_mm2(base.base);
     access.unreachable_mm2 = access.directions.by_chosen.total_mm2(options.tilt_deg);
     return access;
 }
@@ -100,16 +117,39 @@ PieceAccess piece_access(const Piece& piece, std::span<const PieceBase> bases, c
 }
 
 std::vector<PieceBase> bases_of(const Piece& piece) {
-    std::vector<PieceBase> bases;
-    for (const OwnedCap& cap : owned_caps(piece)) {
-        PieceBase base;
-        base.number = cap.cut;
-        base.base = {-cap.outward, cap.cut};
-        base.base_mm2 = cap.area_mm2;
-        base.projected_mm2 = projected_area_mm2(*piece.mesh, base.base.up);
-        if (base.base_mm2 >= min_base_share * base.projected_mm2) bases.push_back(base);
+    const auto projected = [&](Vec3 up) { return projected_area_mm2(*piece.mesh, up); };
+    std::vector<PieceBase> bases = caps_that_carry(owned_caps(piece), projected);
+    if (!bases.empty()) return bases;
+    bases = sides_of(piece);
+    for (PieceBase& side : bases) side.projected_mm2 = projected(side.base.up);
+    return bases;
+}
+
+AreaOnBase area_on_best_base(const Piece& piece, double tilt_deg) {
+    assert(piece.samples);
+    const JudgedPiece judged = piece.samples->judged();
+    std::vector<PieceBase> bases =
+        caps_that_carry(judged.caps, [&](Vec3 up) { return projected_area_mm2(judged, up); });
+    if (bases.empty()) bases = sides_of(piece);
+    std::optional<AreaOnBase> best;
+    for (const PieceBase& base : bases) {
+        const double unreachable = unreachable_area(judged, base.base, tilt_deg).total_mm2(tilt_deg);
+        if (!best || unreachable < best->unreachable_mm2) best = {base, judged.surface_mm2(base.base), unreachable};
     }
-    return bases.empty() ? sides_of(piece) : bases;
+    return *best;
+}
+
+std::optional<double> unreachable_when_cut_mm2(const Piece& piece, const Plane& plane, double fragment_volume_mm3,
+                                               double tilt_deg) {
+    std::optional<CutPieces> made = cut_piece(piece, plane, new_cut);
+    if (!made) return std::nullopt;
+    sample_parts(piece, *made);
+    double unreachable = 0;
+    for (const Piece& part : made->pieces) {
+        if (volume_mm3(*part.mesh) < fragment_volume_mm3) continue;
+        unreachable += area_on_best_base(part, tilt_deg).unreachable_mm2;
+    }
+    return unreachable;
 }
 
 }  // namespace qchopper

@@ -1,8 +1,10 @@
-// What a tilting tool reaches of one piece, from every base that can carry it, on samples of the piece itself.
+// The inaccessible area of one piece: on its best base along all directions, as the search counts it, and from every
+// base along the few that are chosen, as setups are judged.
 //
-// mm2, for a tool of radius zero. A share of 2 % needs 4,000 samples: its standard deviation is then 0.1 to 0.3 points.
-// The same piece and options give the same bytes for any number of threads
-// (tests/segment/access/piece_access_test.cpp).
+// mm2, on samples, for a tool of radius zero. A share of 2 % needs 4,000 samples: its standard deviation is then 0.1 to
+// 0.3 points. The same piece and options give the same bytes for any number of threads
+// (tests/segment/access/piece_access_test.cpp). Which caps count as surface: counts_as_surface (unreachable.h). The
+// same of both sides of a plane, without cutting: access_sweep.h.
 
 #pragma once
 
@@ -10,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,9 +31,28 @@ struct PieceBase {
     double base_mm2 = 0;       // area of the cap; 0 without one
     double projected_mm2 = 0;  // of the piece, along base.up
 };
-// Every cap of at least min_base_share of the piece's projected area along its inward normal, in the order of the
-// cuts, or else the six sides. Precondition: the mesh is closed and has triangles. O(triangles x caps).
+// Every cap that carries the piece by its projected area along the cap's inward normal, in the order of the cuts, or
+// else the six sides. Precondition: the mesh is closed and has triangles. O(triangles x caps).
 std::vector<PieceBase> bases_of(const Piece& piece);
+
+struct AreaOnBase {
+    PieceBase base;
+    double area_mm2 = 0;         // of the surface that counts on this base
+    double unreachable_mm2 = 0;  // of it; with or without steep surface, as the tilt wants
+    // 0..1: sums that rounding makes a little larger than the area are no more than all of it.
+    double share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2 / area_mm2) : 0; }
+};
+
+// On the piece's own Piece::samples, along all directions of the scan within the tilt: the base with the least
+// unreachable area, the first of several. Bases as bases_of, with the projected area on the samples too, so that it
+// costs no more than the table has. Precondition: the piece has samples. O(samples x directions x caps).
+AreaOnBase area_on_best_base(const Piece& piece, double tilt_deg);
+
+// The sum of these over the pieces that the plane really makes, those below fragment_volume_mm3 left out; nothing: it
+// does not part the piece. What a side of several solids leaves out of reach is found no other way. O(triangles +
+// samples x directions).
+std::optional<double> unreachable_when_cut_mm2(const Piece& piece, const Plane& plane, double fragment_volume_mm3,
+                                               double tilt_deg);
 
 struct PieceAccessOptions {
     double tilt_deg = default_tilt_deg;
@@ -43,13 +66,9 @@ struct PieceAccessOptions {
 using ReachableDirections =
     std::function<std::vector<std::uint8_t>(const PieceBase& base, std::span<const Vec3> directions)>;
 
-struct BaseAccess {
-    PieceBase base;
+// Along the chosen directions.
+struct BaseAccess : AreaOnBase {
     ChosenDirections directions;
-    double area_mm2 = 0;  // of the piece without this base
-    double unreachable_mm2 = 0;
-    // 0..1: sums that rounding makes a little larger than the area are no more than all of it.
-    double share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2 / area_mm2) : 0; }
 };
 
 struct PieceAccess {

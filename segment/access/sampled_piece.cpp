@@ -64,10 +64,10 @@ void sample_parts(const Piece& parted, CutPieces& made) {
     }
 }
 
-double unreachable_mm2(const Piece& piece, double tilt_deg) {
+double scan_area_mm2(const Piece& piece) {
     assert(piece.samples);
-    const auto axes = oriented_box(piece.mesh->points).axis;
-    return min_unreachable(piece.samples->judged(), axes, tilt_deg).total_mm2;
+    const SurfaceSamples& samples = piece.samples->scan->samples;
+    return samples.area_each_mm2 * static_cast<double>(samples.sample.size());
 }
 
 }  // namespace qchopper

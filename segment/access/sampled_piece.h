@@ -43,8 +43,7 @@ void sample_uncut(std::span<Piece> uncut, const DistanceStore& store = {}, std::
 // of the uncut solid).
 void sample_parts(const Piece& parted, CutPieces& made);
 
-// What no tool reaches of a piece, from its best base with a largest tilt (min_unreachable in unreachable.h).
-// Precondition: it has samples.
-double unreachable_mm2(const Piece& piece, double tilt_deg);
+// The area of the uncut scan, all its pieces together. Precondition: the piece has samples.
+double scan_area_mm2(const Piece& piece);
 
 }  // namespace qchopper

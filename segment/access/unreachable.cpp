@@ -19,12 +19,18 @@ constexpr double turned_away = -1e-9;  // the cosine between a cap that faces aw
 
 }  // namespace
 
-bool is_base(const OwnedCap& cap, const TiltBase& base) {
-    return base.cut && cap.cut == *base.cut;
+TiltBase lying_on(const OwnedCap& cap) {
+    return {-cap.outward, cap.cut};
 }
 
-bool faces_away(const OwnedCap& cap, Vec3 direction) {
-    return dot(cap.outward, direction) < turned_away;
+bool counts_as_surface(const OwnedCap& cap, const TiltBase& base) {
+    return base.cut != cap.cut;
+}
+
+bool is_out_of_reach(const OwnedCap& cap, const TiltBase& base, std::span<const Vec3> directions) {
+    return counts_as_surface(cap, base) && std::all_of(directions.begin(), directions.end(), [&](const Vec3& d) {
+               return dot(cap.outward, d) < turned_away;
+           });
 }
 
 std::vector<OwnedCap> owned_caps(const Piece& piece) {
@@ -47,9 +53,9 @@ double JudgedPiece::area_mm2() const {
     return area;
 }
 
-double JudgedPiece::area_without_base_mm2(TiltBase base) const {
+double JudgedPiece::surface_mm2(const TiltBase& base) const {
     double area = area_mm2();
-    for (const OwnedCap& cap : caps) area -= is_base(cap, base) ? cap.area_mm2 : 0;
+    for (const OwnedCap& cap : caps) area -= counts_as_surface(cap, base) ? 0 : cap.area_mm2;
     return area;
 }
 
@@ -62,15 +68,6 @@ double projected_area_mm2(const JudgedPiece& piece, Vec3 up) {
     double caps = 0;  // none is hidden along a direction that it faces
     for (const OwnedCap& cap : piece.caps) caps += cap.area_mm2 * std::max(0.0, dot(cap.outward, up));
     return piece.scan.samples.area_each_mm2 * sum + caps;
-}
-
-std::vector<TiltBase> bases_of(const JudgedPiece& piece) {
-    std::vector<TiltBase> bases;
-    for (const OwnedCap& cap : piece.caps) {
-        const Vec3 up = -cap.outward;
-        if (cap.area_mm2 >= min_base_share * projected_area_mm2(piece, up)) bases.push_back({up, cap.cut});
-    }
-    return bases;
 }
 
 UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base, double tilt_deg,
@@ -103,31 +100,10 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
     UnreachableArea result;
     result.hidden_mm2 = piece.scan.samples.area_each_mm2 * static_cast<double>(hidden);
     result.steep_mm2 = piece.scan.samples.area_each_mm2 * static_cast<double>(steep);
-    for (const OwnedCap& cap : piece.caps) {
-        const auto faces_away_from = [&](std::uint32_t k) { return faces_away(cap, directions[k]); };
-        if (!is_base(cap, base) && faces_away(cap, base.up) &&
-            std::all_of(allowed.begin(), allowed.end(), faces_away_from))
-            result.caps_mm2 += cap.area_mm2;
-    }
+    std::vector<Vec3> with_up{base.up};
+    for (const std::uint32_t k : allowed) with_up.push_back(directions[k]);
+    for (const OwnedCap& cap : piece.caps) result.caps_mm2 += is_out_of_reach(cap, base, with_up) ? cap.area_mm2 : 0;
     return result;
-}
-
-MinUnreachable min_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
-                               std::span<const Vec3> further) {
-    std::vector<TiltBase> bases = bases_of(piece);
-    if (bases.empty()) {
-        for (const Vec3& axis : box_axes) {
-            bases.push_back({axis, std::nullopt});
-            bases.push_back({-axis, std::nullopt});
-        }
-    }
-    std::optional<MinUnreachable> best;
-    for (const TiltBase& base : bases) {
-        const UnreachableArea area = unreachable_area(piece, base, tilt_deg, further);
-        const double total = area.total_mm2(tilt_deg);
-        if (!best || total < best->total_mm2) best = {base, area, total, piece.area_without_base_mm2(base)};
-    }
-    return *best;
 }
 
 }  // namespace qchopper

@@ -1,11 +1,11 @@
-// The area of a piece that a tilting tool does not reach: hidden and steep surface, and caps that face away.
+// Which surface of a piece counts on a base, and what of it a tilting tool does not reach: hidden and steep surface,
+// and caps that face away.
 //
 // mm2, on samples, for a tool of radius zero that comes out along any direction within a largest tilt of the base's up.
 // Growing the tilt never makes it larger, steep surface counted throughout (tests/segment/access/unreachable_test.cpp).
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,28 +25,32 @@ struct OwnedCap {
 // One per half-space of which the piece owns a cap, in their order. O(triangles + half-spaces).
 std::vector<OwnedCap> owned_caps(const Piece& piece);
 
-// How a piece lies: its up direction, and the cut whose cap lies on the table, if any.
+// How a piece lies, and with it which of its caps are no surface that a tool has to reach.
 struct TiltBase {
-    Vec3 up{0, 0, 1};  // unit
-    std::optional<std::int32_t> cut;
+    Vec3 up{0, 0, 1};                 // unit
+    std::optional<std::int32_t> cut;  // whose cap lies on the table, if any
 };
+TiltBase lying_on(const OwnedCap& cap);
 
-// Whether the cap is the base. It lies on the table then, and counts as no surface.
-bool is_base(const OwnedCap& cap, const TiltBase& base);
-// Whether a tool that comes out along the direction (a unit vector) does not reach the cap. Caps are flat and hide
-// nothing of themselves: they need no rays.
-bool faces_away(const OwnedCap& cap, Vec3 direction);
+// Whether the cap counts as surface when the piece lies on the base: all do but the one on the table. Nothing else
+// decides this for samples, chosen directions and the sweep.
+bool counts_as_surface(const OwnedCap& cap, const TiltBase& base);
+// Whether the cap counts and no tool that comes out along one of the directions (unit vectors) reaches it. Caps are
+// flat and hide nothing of themselves: they need no rays.
+bool is_out_of_reach(const OwnedCap& cap, const TiltBase& base, std::span<const Vec3> directions);
 
 // The vertical walls of a piece are no undercut for a tool that hardly tilts: below this tilt steep surface does not
 // count.
 constexpr double steep_counts_from_deg = 15;
-// Of the projected area: a smaller cap is no base.
-constexpr double min_base_share = 0.1;
+// Whether a piece can lie on a cap: on a tenth of its projected area at least.
+constexpr bool carries(double cap_mm2, double projected_mm2) {
+    return cap_mm2 >= 0.1 * projected_mm2;
+}
 
 struct UnreachableArea {
     double hidden_mm2 = 0;  // open along no allowed direction, and not steep
     double steep_mm2 = 0;   // open along none, but within min_facing of a right angle with an allowed one
-    double caps_mm2 = 0;    // of caps other than the base that face away from all allowed directions
+    double caps_mm2 = 0;    // of caps that count and face away from all allowed directions
     double total_mm2(double tilt_deg) const {
         return hidden_mm2 + caps_mm2 + (tilt_deg < steep_counts_from_deg ? 0 : steep_mm2);
     }
@@ -58,32 +62,17 @@ struct JudgedPiece {
     const PieceAccessibility& accessibility;
     std::span<const OwnedCap> caps;
     const SurfaceSample& sample(std::size_t row) const { return scan.samples.sample[accessibility.sample[row]]; }
-    double area_mm2() const;                            // its samples and its caps
-    double area_without_base_mm2(TiltBase base) const;  // what shares of a piece are taken of
+    double area_mm2() const;                         // its samples and its caps
+    double surface_mm2(const TiltBase& base) const;  // of it what counts: shares of a piece are taken of this
 };
 
 // The sum of the areas of the samples that are open along `up` and of the caps that face it, projected on it.
 double projected_area_mm2(const JudgedPiece& piece, Vec3 up);
-
-// The caps that can be bases: area at least min_base_share of the projected area along their inward normal.
-std::vector<TiltBase> bases_of(const JudgedPiece& piece);
 
 // Allowed are `up`, the scan's directions within the tilt of it, and of `further` those within the tilt, along which
 // only samples are asked that are open along none of the others. Rays are cast only for `further`, and for an up that
 // is not a direction of the scan. O(samples x directions).
 UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base, double tilt_deg,
                                  std::span<const Vec3> further = {});
-
-struct MinUnreachable {
-    TiltBase base;
-    UnreachableArea unreachable;
-    double total_mm2 = 0;              // with or without steep surface, as the tilt wants
-    double area_without_base_mm2 = 0;  // of the piece
-    double share() const { return area_without_base_mm2 > 0 ? total_mm2 / area_without_base_mm2 : 0; }
-};
-// The base with the least total; the first of several. A piece without a base: the best of the six directions of
-// `box_axes`, those of its own oriented box, as up.
-MinUnreachable min_unreachable(const JudgedPiece& piece, const std::array<Vec3, 3>& box_axes, double tilt_deg,
-                               std::span<const Vec3> further = {});
 
 }  // namespace qchopper

@@ -11,8 +11,9 @@
 
 #include "base/parallel.h"
 #include "base/timings.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
 #include "segment/access/dense_access.h"
+#include "segment/access/piece_access.h"
 #include "segment/cut/nudge.h"
 #include "segment/objectives/sweep/prepared.h"
 #include "segment/search/best_first.h"
@@ -44,7 +45,7 @@ AccessEvaluations swept(const Piece& piece, const OrientedBox& box, const Search
     result.normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
     result.planes.resize(result.normals.size());
     result.unreachable_mm2.resize(result.normals.size());
-    const AccessSweep sweep = access_sweep(piece, settings.objectives.tilt_deg);
+    const AccessSweep sweep(piece, settings.objectives.tilt_deg);
     const std::vector<NoCutTriangle> no_cut = no_cut_triangles(*piece.mesh, options.no_cut);
     parallel_for(0, result.normals.size(), [&](std::size_t n) {
         context.check_cancelled();
@@ -53,7 +54,7 @@ AccessEvaluations swept(const Piece& piece, const OrientedBox& box, const Search
         const std::vector<Extent> forbidden = forbidden_heights(no_cut, result.normals[n]);
         for (const PlaneAccess& plane : sweep.sweep(result.normals[n], offsets)) {
             const double offset = offsets[result.unreachable_mm2[n].size()];
-            result.unreachable_mm2[n].push_back(is_forbidden(forbidden, offset) ? never : unreachable_mm2(plane));
+            result.unreachable_mm2[n].push_back(is_forbidden(forbidden, offset) ? never : plane.unreachable_mm2());
         }
     });
     return result;

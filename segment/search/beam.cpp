@@ -30,8 +30,7 @@ double of_reach(const Segmentation& segmentation, const Objectives& objectives, 
     if (objectives.weights.unreachable == 0 || !segmentation.pieces.front().samples) return 0;
     double sum = 0;
     for (const Piece& piece : segmentation.pieces) sum += cache.unreachable_mm2(piece, objectives.tilt_deg);
-    const SurfaceSamples& samples = segmentation.pieces.front().samples->scan->samples;
-    return objectives.weights.unreachable * sum / (samples.area_each_mm2 * static_cast<double>(samples.sample.size()));
+    return objectives.weights.unreachable * sum / scan_area_mm2(segmentation.pieces.front());
 }
 
 // Parts and seam: what all pieces and all cuts cost together.

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/shared_progress.h"
 #include "base/timings.h"
-#include "segment/access/sampled_piece.h"
+#include "segment/access/piece_access.h"
 #include "segment/search/candidates/evaluate.h"
 
 namespace qchopper {
@@ -47,7 +47,7 @@ const SolidEvaluation& EvaluationCache::solid_evaluation(const Piece& piece) {
 double EvaluationCache::unreachable_mm2(const Piece& piece, double tilt_deg) {
     if (!piece.samples) return 0;
     Entry& e = entry(piece);
-    if (!e.unreachable_mm2) e.unreachable_mm2 = qchopper::unreachable_mm2(piece, tilt_deg);
+    if (!e.unreachable_mm2) e.unreachable_mm2 = area_on_best_base(piece, tilt_deg).unreachable_mm2;
     return *e.unreachable_mm2;
 }
 

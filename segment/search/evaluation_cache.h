@@ -69,7 +69,7 @@ class EvaluationCache {
     const OrientedBox& box(const Piece& piece);
     const SolidEvaluation& solid_evaluation(const Piece& piece);  // of the piece as it is: measure() in evaluate.h
 
-    // What no tool reaches of a piece that has samples, with a largest tilt of the tool; 0 of one that has none.
+    // Of area_on_best_base (segment/access/piece_access.h); 0 of a piece without samples.
     double unreachable_mm2(const Piece& piece, double tilt_deg);
     // Of a piece that has samples; access_rank.h fills it.
     AccessEvaluations& access(const Piece& piece) { return entry(piece).access; }

@@ -6,7 +6,8 @@
 #include <cassert>
 #include <limits>
 
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
+#include "segment/access/piece_access.h"
 #include "segment/search/access_rank.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"

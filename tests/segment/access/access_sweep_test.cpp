@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "segment/access/piece_access.h"
 #include "segment/import/import_scan.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
@@ -22,12 +23,6 @@ namespace qchopper {
 namespace {
 
 constexpr std::array<double, 5> tilts{0, 30, 60, 85, 90};
-
-std::vector<TiltBase> all_caps(std::span<const OwnedCap> caps) {
-    std::vector<TiltBase> bases;
-    for (const OwnedCap& cap : caps) bases.push_back({-cap.outward, cap.cut});
-    return bases;
-}
 
 // Whether a sample of a side counts as unreachable.
 bool is_blocked(Vec3 normal, std::span<const Vec3> allowed, double tilt, const auto& is_open) {
@@ -98,7 +93,7 @@ PlaneAccess swept(const SampledScan& scan, const TrackedPiece& piece, const Plan
     const std::vector<OwnedCap> caps = owned_caps(piece.piece);
     const JudgedPiece judged{scan, piece.accessibility, caps};
     // Two further offsets: one plane of many gives the same as alone.
-    const AccessSweep sweep(piece.piece, judged, all_caps(caps), tilt);
+    const AccessSweep sweep(piece.piece, judged, tilt);
     const double apart = 0.07 * scan.diagonal_mm;
     return sweep.sweep(plane.normal, std::array{plane.offset - apart, plane.offset, plane.offset + apart})[1];
 }
@@ -157,7 +152,7 @@ void compare_samples(const SampledScan& scan, const CutPiece& cut, double tilt, 
             one.sample = {made.accessibility.sample[row]};
             const std::span<const float> distances = cut.parent.accessibility.distances(parent_row);
             one.distance.assign(distances.begin(), distances.end());
-            const PlaneAccess access = AccessSweep(flat, {scan, one, parent_caps}, all_caps(parent_caps), tilt)
+            const PlaneAccess access = AccessSweep(flat, {scan, one, parent_caps}, tilt)
                                            .sweep(cut.plane.normal, std::array{cut.plane.offset})[0];
             const Vec3 normal = scan.samples.sample[made.accessibility.sample[row]].normal;
             for (const OwnedCap& cap : caps) {
@@ -220,7 +215,7 @@ void compare_sides(const SampledScan& scan, const CutPiece& cut, double tilt, Co
             const SideOnBase* fast = on_base(sides, cap.cut == cut.number ? new_cut : cap.cut);
             ASSERT_NE(fast, nullptr);
             EXPECT_NEAR(fast->base_mm2, cap.area_mm2, 1e-9 * size);
-            const TiltBase base{-cap.outward, cap.cut};
+            const TiltBase base = lying_on(cap);
             const UnreachableArea slow = unreachable_area(judged, base, tilt);
             EXPECT_NEAR(fast->caps_mm2, slow.caps_mm2, 1e-9 * size);
             const double expected = slow.total_mm2(tilt) - slow.caps_mm2;
@@ -341,6 +336,41 @@ TEST(AccessSweep, EqualsTheUnreachableAreaOfReallyCutPieces) {
     expect_equal(of_specimens, "specimens");
 }
 
+// Both sides of a plane on their best bases, beside the entry (piece_access.h) on the pieces that it makes.
+TEST(AccessSweep, EqualsTheEntryOnReallyCutPieces) {
+    constexpr double tilt = 60;
+    std::mt19937 random(49);
+    int compared = 0;
+    for (const Specimen kind : {Specimen::femur, Specimen::vertebra}) {
+        std::vector<Piece> pieces{piece_of(small_specimen(kind))};
+        sample_uncut(pieces, {}, 2'000);
+        for (std::int32_t number = 1; number <= 12; ++number) {
+            const Piece& piece = pieces[random() % pieces.size()];
+            const Vec3 normal = random_normal(random);
+            const Extent range = extent(*piece.mesh, normal);
+            const auto nudged = nudge(piece, normal, std::array{range.low + 0.45 * range.size()})[0];
+            auto made = nudged ? cut_piece(piece, {normal, nudged->offset}, number) : std::nullopt;
+            if (!made || made->pieces.size() != 2) continue;
+            sample_parts(piece, *made);
+            // Where no cap carries a side the entry takes the sides of its box, the sweep the best cap.
+            const bool both_lie = std::all_of(made->pieces.begin(), made->pieces.end(), [&](const Piece& part) {
+                return area_on_best_base(part, tilt).base.base.cut.has_value();
+            });
+            const Plane plane{normal, nudged->offset};
+            const std::optional<double> really = unreachable_when_cut_mm2(piece, plane, 0, tilt);
+            ASSERT_TRUE(really.has_value());
+            if (both_lie) {
+                ++compared;
+                // A few rays end at the plane, and the new cap's area is that of the samples.
+                const double near = 3 * piece.samples->scan->samples.area_each_mm2 + 0.01 * made->cap_area_mm2;
+                EXPECT_NEAR(cut_access(piece, plane, tilt).unreachable_mm2, *really, near) << number;
+            }
+            pieces = made->pieces;
+        }
+    }
+    EXPECT_GE(compared, 10);
+}
+
 TEST(AccessSweep, EqualsTheUnreachableAreaOnRealScans) {
     if (!std::filesystem::exists(QCHOPPER_MESHES)) GTEST_SKIP() << "skipped: the real meshes are not here";
     std::mt19937 random(43);
@@ -367,7 +397,7 @@ struct Sample {
     }
     JudgedPiece judged() const { return {scan, pieces[0].accessibility, caps}; }
     std::vector<PlaneAccess> sweep(Vec3 normal, double tilt, int planes = 20) const {
-        return AccessSweep(pieces[0].piece, judged(), all_caps(caps), tilt).sweep(normal, offsets(normal, planes));
+        return AccessSweep(pieces[0].piece, judged(), tilt).sweep(normal, offsets(normal, planes));
     }
     std::vector<double> offsets(Vec3 normal, int planes) const {
         const Extent range = extent(*pieces[0].piece.mesh, normal);
@@ -462,7 +492,7 @@ TEST(AccessSweep, TurningModelPlanesAndDirectionsTogetherChangesNothing) {
                     const TrackedPiece& piece = pieces[i].back();
                     const std::vector<OwnedCap> caps = owned_caps(piece.piece);
                     const JudgedPiece judged{scans[i], piece.accessibility, caps};
-                    access[i] = AccessSweep(piece.piece, judged, all_caps(caps), tilt)
+                    access[i] = AccessSweep(piece.piece, judged, tilt)
                                     .sweep(i == 0 ? normal : turned(normal), std::array{-7.7, 1.234, 6.1});
                 }
                 const double few = 4 * scans[0].samples.area_each_mm2;
@@ -530,11 +560,11 @@ TEST(AccessSweep, AreasOfABarAreKnown) {
     for (const PlaneAccess& access : bar.sweep({0, 0, 1}, 0))
         EXPECT_EQ(best_base(access.above).unreachable_mm2, 0);  // steep
     const std::vector<PlaneAccess> beside =
-        AccessSweep(bar.pieces[0].piece, bar.judged(), {}, 60).sweep({0, 0, 1}, std::array{-1.0, 121.0});
+        AccessSweep(bar.pieces[0].piece, bar.judged(), 60).sweep({0, 0, 1}, std::array{-1.0, 121.0});
     EXPECT_EQ(beside[0].below[0].unreachable_mm2, 0);  // no sample
     EXPECT_EQ(beside[1].above[0].unreachable_mm2, 0);
     EXPECT_NEAR(beside[0].above[0].unreachable_mm2, 1'600, 4 * each);  // the whole bar, and its foot
-    EXPECT_TRUE(AccessSweep(bar.pieces[0].piece, bar.judged(), {}, 60).sweep({0, 0, 1}, {}).empty());
+    EXPECT_TRUE(AccessSweep(bar.pieces[0].piece, bar.judged(), 60).sweep({0, 0, 1}, {}).empty());
 }
 
 // cut_accessibility and cut() count height == offset as above.
@@ -546,7 +576,7 @@ TEST(AccessSweep, ASampleOnThePlaneBelongsToTheSideAbove) {
     ASSERT_FALSE(lower.piece.half_spaces[0].above);
     const std::vector<OwnedCap> caps = owned_caps(lower.piece);
     // Its foot lies at height 0 to the last bit; it is the top on the old base.
-    const AccessSweep sweep(lower.piece, {scan, lower.accessibility, caps}, all_caps(caps), 60);
+    const AccessSweep sweep(lower.piece, {scan, lower.accessibility, caps}, 60);
     const PlaneAccess at_foot = sweep.sweep({0, 0, 1}, std::array{0.0})[0];
     EXPECT_NEAR(projected_area_mm2({scan, lower.accessibility, caps}, {0, 0, 1}), 1'600, 1e-6);  // its cap alone
     ASSERT_EQ(at_foot.above.size(), 2U);
@@ -571,7 +601,7 @@ TEST(AccessSweep, CapsThatFaceAwayCountByTheirAreaOnTheSide) {
     ASSERT_TRUE(upper.piece.half_spaces[0].above);
     const std::vector<OwnedCap> caps = owned_caps(upper.piece);
     const JudgedPiece judged{scan, upper.accessibility, caps};
-    const AccessSweep sweep(upper.piece, judged, all_caps(caps), 30);
+    const AccessSweep sweep(upper.piece, judged, 30);
     // Across the old cap: parts of 40 x 15 and 40 x 25 mm face sideways, which a tool tilted by 30 degrees cannot reach
     // from a base at right angles.
     const PlaneAccess across = sweep.sweep({1, 0, 0}, std::array{15.0})[0];
@@ -626,7 +656,7 @@ TEST(AccessSweep, IsTheSameForAnyNumberOfThreads) {
     std::vector<Vec3> normals = octahedron_normals();
     normals.push_back(normalized({0.123, 0.4, 1}));
     const auto all = [&] {
-        const AccessSweep sweep(piece.pieces[0].piece, piece.judged(), all_caps(piece.caps), 60);
+        const AccessSweep sweep(piece.pieces[0].piece, piece.judged(), 60);
         std::vector<std::vector<PlaneAccess>> result(normals.size());
         parallel_for(0, normals.size(),
                      [&](std::size_t i) { result[i] = sweep.sweep(normals[i], piece.offsets(normals[i], 40)); });

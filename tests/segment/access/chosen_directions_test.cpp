@@ -117,7 +117,7 @@ void expect_consistent(const Case& c, const DirectionOptions& options, const Cho
     ASSERT_FALSE(chosen.empty());
     EXPECT_EQ(chosen[0], c.base.up) << what;
     EXPECT_LE(chosen.size(), options.max_directions) << what;
-    const double area = c.piece.area_without_base_mm2(c.base);
+    const double area = c.piece.surface_mm2(c.base);
     Coverage before{std::vector<bool>(covered_by(c, c.base.up).is_covered.size())};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (i > 0) {
@@ -161,7 +161,7 @@ void for_each_case(std::size_t samples, std::size_t dense, const Check& check) {
             const JudgedPiece judged{scan, piece.accessibility, caps};
             for (const OwnedCap& cap : caps) {
                 for (const double tilt : {0.0, 30.0, 60.0, 90.0}) {
-                    const TiltBase base{-cap.outward, cap.cut};
+                    const TiltBase base = lying_on(cap);
                     std::vector<Vec3> further;
                     for (const std::uint32_t k : allowed_directions(all_dense, base.up, tilt)) {
                         further.push_back(all_dense[k]);
@@ -238,7 +238,7 @@ TEST(ChosenDirections, DenseDirectionsAreAskedWhereTheChosenDoNotReach) {
                     best_direction = d;
                 }
             }
-            const bool is_worth_it = best > 0 && best >= 0.005 * c.piece.area_without_base_mm2(c.base);
+            const bool is_worth_it = best > 0 && best >= 0.005 * c.piece.surface_mm2(c.base);
             ASSERT_EQ(result.further.has_value(), is_worth_it) << what;
             if (!is_worth_it) continue;
             ++with_further;
@@ -394,7 +394,7 @@ TEST(ChosenDirections, AnUprightCapIsSteepUntilADirectionFacesIt) {
         const std::vector<OwnedCap> caps = owned_caps(piece.piece);
         if (caps.size() < 2) continue;
         const JudgedPiece judged{scan, piece.accessibility, caps};
-        const TiltBase base{-caps[0].outward, caps[0].cut};
+        const TiltBase base = lying_on(caps[0]);
         const Case c{judged, base, allowed_directions(scan.directions, base.up, 60), {}};
         const double steep_samples =
             static_cast<double>(piece.accessibility.sample.size()) * scan.samples.area_each_mm2;
@@ -416,7 +416,7 @@ TEST(ChosenDirections, ACapIsReachedOnceSomeDirectionFacesIt) {
         const std::vector<OwnedCap> caps = owned_caps(piece.piece);
         const JudgedPiece judged{scan, piece.accessibility, caps};
         for (const OwnedCap& cap : caps) {
-            const TiltBase base{-cap.outward, cap.cut};
+            const TiltBase base = lying_on(cap);
             const Case c{judged, base, allowed_directions(scan.directions, base.up, 60), {}};
             double others = 0;
             for (const OwnedCap& other : caps) {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
 #include "segment/access/inside.h"
 #include "segment/access/piece_access.h"
 #include "segment/access/sampled_piece.h"
@@ -106,7 +106,7 @@ TEST(Ignored, APieceMayHaveNoSurfaceLeft) {
     const Piece& top = made->pieces.front();
     EXPECT_EQ(counted_area_of(*top.mesh), 0);
     EXPECT_TRUE(top.samples->accessibility.sample.empty());
-    EXPECT_EQ(unreachable_mm2(top, 60), 0);
+    EXPECT_EQ(area_on_best_base(top, 60).unreachable_mm2, 0);
     const CutAccess access = cut_access(top, {{1, 0, 0}, 2.1}, 60);
     EXPECT_GE(access.unreachable_mm2, 0);
     EXPECT_TRUE(std::isfinite(access.unreachable_mm2));

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
+#include "segment/access/piece_access.h"
 #include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
@@ -283,27 +285,27 @@ TEST(Unreachable, ASmallCapIsNoBase) {
     ASSERT_EQ(stump_caps.size(), 1U);
     EXPECT_NEAR(tip_caps[0].area_mm2, 4, 1e-6);
     EXPECT_EQ(tip_caps[0].area_mm2, stump_caps[0].area_mm2);
-    const JudgedPiece judged_tip{pyramid.scan, tip.accessibility, tip_caps};
-    const JudgedPiece judged_stump{pyramid.scan, stump.accessibility, stump_caps};
-    ASSERT_EQ(bases_of(judged_tip).size(), 1U);
-    EXPECT_EQ(bases_of(judged_tip)[0].cut, 1);
-    EXPECT_EQ(bases_of(judged_tip)[0].up, (Vec3{0, 0, 1}));
-    EXPECT_TRUE(bases_of(judged_stump).empty());
-
-    const MinUnreachable of_tip = min_unreachable(judged_tip, world, 60);
-    EXPECT_EQ(of_tip.base.cut, 1);
+    const auto on_best_base = [&](TrackedPiece piece, const std::vector<OwnedCap>& caps) {
+        piece.piece.samples = std::make_shared<const SampledPiece>(SampledPiece{
+            std::shared_ptr<const SampledScan>(std::shared_ptr<void>(), &pyramid.scan), piece.accessibility, caps});
+        return area_on_best_base(piece.piece, 60);
+    };
+    const AreaOnBase of_tip = on_best_base(tip, tip_caps);
+    EXPECT_EQ(of_tip.base.base.cut, 1);
+    EXPECT_EQ(of_tip.base.base.up, (Vec3{0, 0, 1}));
     EXPECT_EQ(of_tip.share(), 0);
-    const MinUnreachable of_stump = min_unreachable(judged_stump, world, 60);
-    EXPECT_FALSE(of_stump.base.cut.has_value());
-    EXPECT_NEAR(of_stump.total_mm2, 4, 1e-6);  // upside down, its own cap faces the table
+    const AreaOnBase of_stump = on_best_base(stump, stump_caps);
+    EXPECT_FALSE(of_stump.base.base.cut.has_value());
+    EXPECT_NEAR(of_stump.unreachable_mm2, 4, 1e-6);  // upside down, its own cap faces the table
+    const JudgedPiece judged_stump{pyramid.scan, stump.accessibility, stump_caps};
     for (const Vec3& axis : world) {
         for (const double sign : {1.0, -1.0}) {
-            EXPECT_LE(of_stump.total_mm2,
+            EXPECT_LE(of_stump.unreachable_mm2,
                       unreachable_area(judged_stump, {sign * axis, std::nullopt}, 60).total_mm2(60));
         }
     }
-    EXPECT_NEAR(of_stump.area_without_base_mm2, area_mm2(*stump.piece.mesh), 0.02 * area_mm2(*stump.piece.mesh));
-    EXPECT_NEAR(of_tip.area_without_base_mm2, area_mm2(*tip.piece.mesh) - 4, 0.2 * area_mm2(*tip.piece.mesh));
+    EXPECT_NEAR(of_stump.area_mm2, area_mm2(*stump.piece.mesh), 0.02 * area_mm2(*stump.piece.mesh));
+    EXPECT_NEAR(of_tip.area_mm2, area_mm2(*tip.piece.mesh) - 4, 0.2 * area_mm2(*tip.piece.mesh));
 }
 
 }  // namespace

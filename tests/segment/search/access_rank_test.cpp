@@ -7,7 +7,8 @@
 #include <functional>
 
 #include "base/parallel.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
+#include "segment/access/piece_access.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
 #include "segment/objectives/seam_cost.h"
@@ -51,7 +52,7 @@ std::vector<Ranked> rank_all(const Segmentation& segmentation, const SearchSetti
 
 // Of all planes those that open nearly as much as the best one, or along the box's axes if none opens anything.
 std::vector<Ranked> candidates_among(std::vector<Ranked> all, const Piece& piece, const SearchSettings& settings) {
-    const double now = unreachable_mm2(piece, settings.objectives.tilt_deg) / scan_area_mm2(piece);
+    const double now = area_on_best_base(piece, settings.objectives.tilt_deg).unreachable_mm2 / scan_area_mm2(piece);
     double least = now;
     for (const Ranked& r : all) least = std::min(least, r.terms.unreachable);
     const double gain = now - least;
@@ -128,7 +129,8 @@ TEST(AccessRank, WhatAPlaneLeavesOutOfReachIsWhatItsPiecesDo) {
             ASSERT_TRUE(
                 apply(segmentation, cut_by(segmentation, segmentation.pieces.size() - 1, ranked, 0, settings), 0));
             double sum = 0;
-            for (const Piece& piece : segmentation.pieces) sum += unreachable_mm2(piece, settings.objectives.tilt_deg);
+            for (const Piece& piece : segmentation.pieces)
+                sum += area_on_best_base(piece, settings.objectives.tilt_deg).unreachable_mm2;
             EXPECT_NEAR(sum / scan_area_mm2(segmentation.pieces[0]), wanted, 0.004);
         }
     }
@@ -262,7 +264,7 @@ TEST(AccessRank, ASearchTakesThePieceOfWhichMostIsOutOfReachAndItsCostAddsUp) {
         cost += 0.05 * t.face_ratio + t.fragility + 0.3 * t.piece_count;
     }
     double unreachable = 0;
-    for (const Piece& piece : segmentation.pieces) unreachable += unreachable_mm2(piece, 60);
+    for (const Piece& piece : segmentation.pieces) unreachable += area_on_best_base(piece, 60).unreachable_mm2;
     cost += 100 * unreachable / scan_area_mm2(segmentation.pieces[0]);
     EXPECT_NEAR(end.cost, cost, 1e-9);
 }

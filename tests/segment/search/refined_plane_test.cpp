@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/access_sweep.h"
 #include "segment/access/dense_access.h"
+#include "segment/access/piece_access.h"
 #include "segment/access/tool_directions.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
@@ -42,9 +43,8 @@ std::optional<double> reference_mm2(Segmentation segmentation, const Plane& plan
     if (segmentation.pieces.size() != 2) return std::nullopt;
     double sum = 0;
     for (const Piece& piece : segmentation.pieces) {
-        const JudgedPiece judged = piece.samples->judged();
-        const MinUnreachable best = min_unreachable(judged, oriented_box(piece.mesh->points).axis, tilt_deg);
-        sum += unreachable_area(judged, best.base, tilt_deg, dense_directions()).total_mm2(tilt_deg);
+        const TiltBase best = area_on_best_base(piece, tilt_deg).base.base;
+        sum += unreachable_area(piece.samples->judged(), best, tilt_deg, dense_directions()).total_mm2(tilt_deg);
     }
     return sum;
 }

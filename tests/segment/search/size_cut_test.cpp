@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/parallel.h"
-#include "segment/access/cut_access.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/mesh/boxes_needed.h"
 #include "segment/sample/sample.h"
 #include "segment/search/access_rank.h"
