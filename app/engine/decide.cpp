@@ -73,8 +73,8 @@ class RequestHandler {
             return;
         }
         if (!project_.decide_discard(names)) return refuse(nothing_would_be_left());
-        const std::vector<std::string>& warnings = project_.segmentation().warnings;
-        answer_.warnings.assign(warnings.end() - static_cast<std::ptrdiff_t>(names.size()), warnings.end());
+        const std::vector<SegmentationWarning>& warnings = project_.segmentation().warnings;
+        answer_.warnings = texts(warnings, warnings.size() - names.size());
         std::string list;
         for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
         answer_.done = "Discarded: " + list + "; --undo brings back what this decision left out.";
@@ -151,8 +151,9 @@ class RequestHandler {
             return refuse("The plane does not part piece " + project_.segmentation().pieces[p].name +
                           ", although its evaluation says so: the scan runs through itself there. Nothing was cut.");
         }
-        const std::vector<std::string>& warnings = project_.segmentation().warnings;
-        for (std::size_t i = warned; i < warnings.size(); ++i) answer_.warnings.push_back(warnings[i]);
+        for (std::string& text : texts(project_.segmentation().warnings, warned)) {
+            answer_.warnings.push_back(std::move(text));
+        }
         answer_.done = cut_line(project_.segmentation().cuts.back(), project_.project().settings);
     }
 
@@ -217,7 +218,7 @@ class RequestHandler {
         options.last = LoopStep::cut;
         if (request.time_limit_s) options.time_limit.emplace(TimeLimit{*request.time_limit_s});
         const SearchEnd end = *run_loop(project_, options, observer, context_).end;
-        answer_.warnings = project_.segmentation().warnings;
+        answer_.warnings = texts(project_.segmentation().warnings);
         answer_.done = "The search ended: " + end.sentence + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished()) refuse("The stop rules do not hold.");
         if (end.is_out_of_time()) answer_.notes.emplace_back("All cuts are kept; go on by --auto.");

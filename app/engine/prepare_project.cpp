@@ -31,7 +31,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
     }
     if (options.discard) discard(project, *options.discard, context);
     observer.on_cut = [&, was_done = project.project().stage == Stage::done](const std::optional<SearchEnd>& end) {
-        if (end) context.warn(project.segmentation().warnings);
+        if (end) context.warn(texts(project.segmentation().warnings));
         if (end && end->is_out_of_time()) {
             context.warn({early_end(end->sentence)});
         } else if (!was_done && !project.project().do_rules_hold()) {

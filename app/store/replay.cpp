@@ -86,7 +86,7 @@ void record(Project& project, const Segmentation& segmentation) {
             {"", fragment.cut, fragment.mesh->triangles.size(), fragment.volume_mm3, fragment.centre});
     }
     project.warnings = project.scan.warnings;
-    project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
+    for (std::string& text : texts(segmentation.warnings)) project.warnings.push_back(std::move(text));
 }
 
 Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context,

@@ -20,17 +20,6 @@ void replace_part(std::vector<Element>& list, const std::vector<Element>& by, st
     list.insert(later, by.begin(), by.end());
 }
 
-// "cut 7: ..." is of cut 7; others are of no cut, and were made before all that a replaced cut may have after it.
-std::int32_t cut_of_warning(const std::string& warning) {
-    const std::string start = "cut ";
-    if (!warning.starts_with(start)) return 0;
-    std::int32_t number = 0;
-    for (std::size_t i = start.size(); i < warning.size() && warning[i] >= '0' && warning[i] <= '9'; ++i) {
-        number = 10 * number + (warning[i] - '0');
-    }
-    return number;
-}
-
 }  // namespace
 
 std::optional<Segmentation> cut_alone(const Segmentation& segmentation, const Piece& piece, Cut by,
@@ -58,7 +47,7 @@ Segmentation recut(Segmentation segmentation, const Segmentation& alone) {
         if (made_by(piece) > by.number) piece.name = renamed.at(piece.name);
     }
     replace_part(segmentation.fragments, alone.fragments, by.number, [](const Fragment& f) { return f.cut; });
-    replace_part(segmentation.warnings, alone.warnings, by.number, cut_of_warning);
+    replace_part(segmentation.warnings, alone.warnings, by.number, [](const SegmentationWarning& w) { return w.cut; });
     const Cut& old = before[static_cast<std::size_t>(by.number - 1)];
     segmentation.names_given = segmentation.names_given - old.pieces.size() + by.pieces.size();
     return segmentation;

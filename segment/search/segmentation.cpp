@@ -39,6 +39,12 @@ std::vector<std::string> add_solids(Segmentation& segmentation, std::vector<Piec
 
 }  // namespace
 
+std::vector<std::string> texts(const std::vector<SegmentationWarning>& warnings, std::size_t from) {
+    std::vector<std::string> result;
+    for (std::size_t i = from; i < warnings.size(); ++i) result.push_back(warnings[i].text);
+    return result;
+}
+
 std::int32_t made_by(const Piece& piece) {
     return piece.half_spaces.empty() ? 0 : piece.half_spaces.back().cut;
 }
@@ -80,8 +86,8 @@ bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     const std::size_t fragments_before = segmentation.fragments.size();
     cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, fragment_volume_mm3);
     cut.fragments = segmentation.fragments.size() - fragments_before;
-    for (std::string& warning : made->warnings) {
-        segmentation.warnings.push_back("cut " + std::to_string(cut.number) + ": " + warning);
+    for (const std::string& warning : made->warnings) {
+        segmentation.warnings.push_back({cut.number, "cut " + std::to_string(cut.number) + ": " + warning});
     }
     segmentation.cuts.push_back(std::move(cut));
     return true;
@@ -93,7 +99,7 @@ bool discard(Segmentation& segmentation, const std::string& name) {
     if (piece == pieces.end() || pieces.size() == 1) return false;
     char volume[48];
     std::snprintf(volume, sizeof volume, "%.4g ml", volume_mm3(*piece->mesh) / 1000);
-    segmentation.warnings.push_back("piece " + name + " (" + volume + ") is discarded and will not be carved");
+    segmentation.warnings.push_back({0, "piece " + name + " (" + volume + ") is discarded and will not be carved"});
     segmentation.discarded.push_back({segmentation.cuts.size(), std::move(*piece)});
     pieces.erase(piece);
     return true;

@@ -60,15 +60,25 @@ struct UncutScan {
     std::vector<Vec3> solid_sizes_mm;  // of the oriented box of each
 };
 
+// What the operator must know of a segmentation, as one sentence.
+struct SegmentationWarning {
+    std::int32_t cut = 0;  // number of the cut that it is of; 0: of none
+    std::string text;
+    bool operator==(const SegmentationWarning&) const = default;
+};
+
 struct Segmentation {
     std::vector<Cut> cuts;
     std::vector<Piece> pieces;  // the leaves, in the order of their names
     std::vector<Fragment> fragments;
-    std::vector<Discarded> discarded;  // in the order of the decisions
-    std::size_t names_given = 0;       // the next piece is piece_name(names_given), piece_names.h
-    std::vector<std::string> warnings;
-    UncutScan scan;  // empty: not measured, because no objective needs it
+    std::vector<Discarded> discarded;           // in the order of the decisions
+    std::size_t names_given = 0;                // the next piece is piece_name(names_given), piece_names.h
+    std::vector<SegmentationWarning> warnings;  // in the order in which they arose
+    UncutScan scan;                             // empty: not measured, because no objective needs it
 };
+
+// The sentences of the warnings from the one with index `from` on.
+std::vector<std::string> texts(const std::vector<SegmentationWarning>& warnings, std::size_t from = 0);
 
 // The number of the cut that made a piece; 0: it was in the scan.
 std::int32_t made_by(const Piece& piece);

@@ -106,6 +106,22 @@ TEST(Recut, FragmentsAreThoseOfThePlaneThatIsTaken) {
     expect_as_if_chosen_at_once(2, {0, 0, 1}, -9.5, 1, 300);
 }
 
+// Whatever their texts begin with.
+TEST(Recut, WarningsOfTheCutAreReplacedAndThoseOfOthersStayInOrder) {
+    std::vector<Cut> cuts = four_cuts();
+    Segmentation s = made({cuts[0]});
+    const auto divided = std::find_if(s.pieces.begin(), s.pieces.end(), [](auto& p) { return p.name == "C"; });
+    const Piece piece = *divided;
+    for (std::size_t i = 1; i < cuts.size(); ++i) ASSERT_TRUE(apply(s, cuts[i], 0));
+    s.warnings = {{0, "cut 2: of the scan"}, {1, "first"}, {2, "cut 3: old"}, {2, "older"}, {3, "third"}};
+    std::optional<Segmentation> alone = cut_alone(s, piece, planned(2, "C", {0, 0, 1}, -3.3), 0);
+    ASSERT_TRUE(alone);
+    alone->warnings = {{2, "new"}};
+    const std::vector<SegmentationWarning> expected{{0, "cut 2: of the scan"}, {1, "first"}, {2, "new"}, {3, "third"}};
+    EXPECT_EQ(recut(s, *alone).warnings, expected);
+    EXPECT_EQ(texts(expected, 2), (std::vector<std::string>{"new", "third"}));
+}
+
 TEST(CutList, NamesOfLaterCutsFollowWhereMorePiecesAreMade) {
     const auto cut = [](std::int32_t number, const char* piece, std::vector<std::string> pieces) {
         Cut c;
