@@ -63,6 +63,14 @@ bool belongs_to(const BeamState& beam, const History& history) {
 constexpr auto names_of(Stage) {
     return EnumNames<Stage, 3>{{{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}}};
 }
+constexpr auto names_of(EndReason) {
+    return EnumNames<EndReason, 6>{{{EndReason::rules_hold, "rules_hold"},
+                                    {EndReason::no_rule, "no_rule"},
+                                    {EndReason::no_plane, "no_plane"},
+                                    {EndReason::passed_over, "passed_over"},
+                                    {EndReason::max_cuts, "max_cuts"},
+                                    {EndReason::time_limit, "time_limit"}}};
+}
 constexpr auto names_of(FragmentChoice) {
     return EnumNames<FragmentChoice, 2>{{{FragmentChoice::keep, "keep"}, {FragmentChoice::drop, "drop"}}};
 }
@@ -216,6 +224,7 @@ void fields(V& v, T& project) {
     v("settings", project.settings);
     v("fragment_choice", project.fragments);
     v("stage", project.stage);
+    v("end_reason", project.end_reason);
     v("ended_because", project.ended_because);
     v("history", project.history);
     v("pieces", project.pieces);
@@ -277,7 +286,6 @@ void check(const Project& project) {
 void derive(Project& project) {
     const std::optional<SymmetryPlane>& symmetry = project.settings.candidates.symmetry;
     if (symmetry) project.settings.objectives.symmetry_plane = symmetry->plane;
-    project.end_reason = end_reason_of(project.ended_because);
     project.cuts = committed_cuts(project.history);
     project.discards = committed_discards(project.history);
 }

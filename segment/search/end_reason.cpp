@@ -31,11 +31,4 @@ std::string describe(EndReason reason, const std::string& figure) {
     return s.before + figure + s.after;
 }
 
-std::optional<EndReason> end_reason_of(std::string_view sentence) {
-    for (const Sentence& s : sentences) {
-        if (sentence.starts_with(s.before)) return s.reason;
-    }
-    return std::nullopt;
-}
-
 }  // namespace qchopper

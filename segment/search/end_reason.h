@@ -1,11 +1,8 @@
-// Reasons for which a search ends, and their sentences: one table, read in both directions
-// (tests/segment/search/end_reason_test.cpp).
+// Reasons for which a search ends, and their sentences (tests/segment/search/end_reason_test.cpp).
 
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace qchopper {
 
@@ -26,8 +23,5 @@ constexpr bool is_finished(EndReason reason) {
 // The sentence of a reason, such as "the safety stop of 500 cuts is reached". `figure`: the number in it, or the list
 // of pieces, if it has one.
 std::string describe(EndReason reason, const std::string& figure = {});
-
-// The reason of a sentence, with any figure and with text after it. Nothing if no sentence of describe() begins so.
-std::optional<EndReason> end_reason_of(std::string_view sentence);
 
 }  // namespace qchopper

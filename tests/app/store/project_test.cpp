@@ -70,6 +70,28 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     EXPECT_EQ(load_project(folder), decided);
 }
 
+TEST_F(ProjectFolder, TheReasonOfTheEndIsAValueBesideItsSentence) {
+    Segmentation segmentation;
+    Project project = searched_project(shapes::nested(), segmentation);
+    project.ended_because = "a sentence of any words";
+    for (const EndReason reason : {EndReason::rules_hold, EndReason::no_rule, EndReason::no_plane,
+                                   EndReason::passed_over, EndReason::max_cuts, EndReason::time_limit}) {
+        project.end_reason = reason;
+        save_project(folder, project);
+        EXPECT_EQ(load_project(folder), project);
+    }
+    const std::string text = to_json(project);
+    const std::string key = "\"end_reason\": ";
+    const std::size_t at = text.find(key + "\"time_limit\"");
+    ASSERT_NE(at, std::string::npos);
+    for (const std::string& other : {key + "\"weather\"", key + "3", std::string("\"end\": \"time_limit\"")}) {
+        std::string broken = text;
+        broken.replace(at, key.size() + std::string("\"time_limit\"").size(), other);
+        write_file(folder / "project.json", broken);
+        EXPECT_THROW(load_project(folder), InputError) << other;
+    }
+}
+
 TEST_F(ProjectFolder, ReplayGivesTheSamePiecesBitForBit) {
     const TriangleMesh mesh = shapes::linked_tori();
     Segmentation segmentation;

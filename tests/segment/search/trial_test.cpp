@@ -140,7 +140,6 @@ TEST(Trial, ThatGainsNothingIsRevertedAndThePieceIsPassedOver) {
         EXPECT_EQ(found.end.sentence,
                   "every unfinished piece is passed over: piece A: 7.4 % of its surface is out of reach (2 % may be), "
                   "three cuts changed that from 1000.0 to 1000.0 cm2");
-        EXPECT_EQ(end_reason_of(found.end.sentence), EndReason::passed_over);
     }
 }
 
