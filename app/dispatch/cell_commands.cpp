@@ -68,6 +68,11 @@ CellControlReport report_of(const std::string& action, const ContactedCell& cell
     return report;
 }
 
+const char* word_of(CommandEnd end) {
+    constexpr const char* words[] = {"done", "refused", "unknown"};  // in the order of CommandEnd
+    return words[static_cast<std::size_t>(end)];
+}
+
 CellControlReport ended(CellControlReport report, const char* end, const std::string& why) {
     report.end = end;
     report.why = why;
@@ -75,11 +80,10 @@ CellControlReport ended(CellControlReport report, const char* end, const std::st
 }
 
 CellControlReport ended(CellControlReport report, const ControlEnd& end) {
-    constexpr const char* ends[] = {"done", "refused", "unknown"};  // in the order of ControlEnd::Kind
     report.to_do = end.to_do;
     if (end.result != AckResult::none) report.result = name(end.result);
     report.state = name(end.status.state);
-    return ended(std::move(report), ends[static_cast<std::size_t>(end.kind)], end.why);
+    return ended(std::move(report), word_of(end.kind), end.why);
 }
 
 // A dispatcher of this user holds the cell: it passes on Unhold and Clear, for the others it has to end.
@@ -87,11 +91,11 @@ CellControlReport ask_running(const std::string& action, CellCommand command, co
                               const InputError& busy) {
     if (command != CellCommand::unhold && command != CellCommand::clear) throw busy;
     constexpr double margin_s = 15;
-    const std::string answer = ask_dispatcher(cell.journal_folder, command, HandOffTimings{}.consent_s + margin_s);
-    const char* end = answer == "OK" ? "done" : answer.starts_with("refused") ? "refused" : "unknown";
-    CellControlReport report = ended(report_of(action, cell), end, "passed on by the running dispatcher: " + answer);
+    const RequestAnswer answer = ask_dispatcher(cell.journal_folder, command, HandOffTimings{}.consent_s + margin_s);
+    CellControlReport report =
+        ended(report_of(action, cell), word_of(answer.end), "passed on by the running dispatcher: " + describe(answer));
     report.state.clear();
-    if (report.end != "done") report.to_do = "Look at the cell: " + cell_command(cell.endpoint, "status");
+    if (answer.end != CommandEnd::done) report.to_do = "Look at the cell: " + cell_command(cell.endpoint, "status");
     return report;
 }
 

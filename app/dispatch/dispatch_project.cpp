@@ -113,7 +113,7 @@ std::vector<DispatchedJob> dispatch_with_journal(const std::vector<PieceJob>& jo
     Journal journal(journal_folder(cell), cell);
     RequestSocket requests(journal_folder(cell));
     options.request = [&] { return requests.next(); };
-    options.answer_request = [&](const std::string& answer) { requests.answer(answer); };
+    options.answer_request = [&](const RequestAnswer& answer) { requests.answer(answer); };
     return dispatch_jobs(jobs, bus, options, journal, context);
 }
 

@@ -28,11 +28,7 @@ struct ControlOrder {
 bool needs_lease(CellCommand command);
 
 struct ControlEnd {
-    enum class Kind {
-        done,     // the cell acknowledged it: OK, or ALREADY
-        refused,  // by the cell, or here because the cell would refuse: no effect
-        unknown   // sent, and no acknowledgement came: ask the cell
-    };
+    using Kind = CommandEnd;
     Kind kind = Kind::unknown;
     AckResult result = AckResult::none;  // of the cell, or the one that it would give
     std::string why;                     // one sentence: what happened, and whether foam is being cut

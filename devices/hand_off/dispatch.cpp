@@ -68,8 +68,8 @@ class Dispatcher {
             HandOffTransition turn = next(state, input);
             state = std::move(turn.state);
             for (const std::string& line : turn.lines) report(line);
-            if (!turn.request_answer.empty() && plan_.options.answer_request) {
-                plan_.options.answer_request(turn.request_answer);
+            if (turn.request_answer && plan_.options.answer_request) {
+                plan_.options.answer_request(*turn.request_answer);
             }
             if (turn.action.kind == HandOffAction::Kind::finish) break;
             input = act(turn.action, state, input.cancelled);

@@ -27,6 +27,20 @@ struct HandOffTimings {
     double leave_s = 2;           // from the request to stop to the end of the hand-off, whatever the cell does
 };
 
+// How a command to a cell ended.
+enum class CommandEnd {
+    done,     // the cell acknowledged it: OK, or ALREADY
+    refused,  // by the cell, or here because the cell would refuse: no effect
+    unknown   // sent, and no acknowledgement came: ask the cell
+};
+
+// What became of a command that another program asked a dispatcher to pass on.
+struct RequestAnswer {
+    CommandEnd end = CommandEnd::unknown;
+    std::string why;  // one line; empty after `done`
+    bool operator==(const RequestAnswer&) const = default;
+};
+
 // What the journal says of the memory of the cell, and of the last dispatcher that claimed it.
 struct CellPast {
     std::optional<SeenStore> store;  // as the cell showed it last, or as it was accepted
@@ -77,7 +91,7 @@ struct DispatchOptions {
     // Asked for a command that another program wants to be passed to the cell, none if there is none; and told how it
     // ended. May be empty.
     std::function<CellCommand()> request;
-    std::function<void(const std::string& answer)> answer_request;
+    std::function<void(const RequestAnswer& answer)> answer_request;
     // Told the name of each point in the course of a dispatch, for tests that end the process there. May be empty.
     std::function<void(const std::string& point)> at_point;
 };

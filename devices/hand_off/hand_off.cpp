@@ -88,7 +88,7 @@ HandOffAction fence(StepContext& context, const std::string& why) {
                            " times and is given up, the last time because " + why,
                        "Mend the link, or what ends the lease, then dispatch again: first it asks the cell.");
     }
-    end_request(context, why + "; whether the cell has done it is not known: ask the cell");
+    end_request(context, CommandEnd::unknown, why + "; whether the cell has done it is not known: ask the cell");
     context.report(why + "; claiming the cell again, then querying the job; " + foam(context));
     return enter(context, HandOffStep::claim);
 }
@@ -200,7 +200,8 @@ void note_status(StepContext& context) {
 }
 
 HandOffAction drop_request(StepContext& context) {
-    end_request(context, "the cell did not answer in time; whether it has done it is not known: ask the cell");
+    end_request(context, CommandEnd::unknown,
+                "the cell did not answer in time; whether it has done it is not known: ask the cell");
     context.h.waits_for_ack = false;
     return watch(context);
 }

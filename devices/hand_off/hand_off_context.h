@@ -106,7 +106,7 @@ void keep_store(StepContext& context);
 // The command that another program asks for: sent now, or answered why not.
 std::optional<HandOffAction> take_request(StepContext& context);
 // The request that is under way has ended. Does nothing without one.
-void end_request(StepContext& context, const std::string& answer);
+void end_request(StepContext& context, CommandEnd end, const std::string& why = {});
 
 // hand_off_end.cpp
 HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,

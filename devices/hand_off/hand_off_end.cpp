@@ -24,7 +24,7 @@ HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std
     }
     context.h.step = HandOffStep::finished;
     context.report(std::string(describe(start_outcome)) + ": " + context.h.why);
-    end_request(context, "the dispatcher ended before the cell answered");
+    end_request(context, CommandEnd::unknown, "the dispatcher ended before the cell answered");
     keep_store(context);
     context.keep(JournalKind::closed).start_outcome = start_outcome;
     return plain(Kind::finish);

@@ -8,7 +8,7 @@ namespace qchopper::hand_off {
 std::optional<HandOffAction> take_request(StepContext& context) {
     HandOff& h = context.h;
     const CellCommand request = context.in.request;
-    const auto refuse = [&](const std::string& why) { context.turn.request_answer = "refused: " + why; };
+    const auto refuse = [&](const std::string& why) { context.turn.request_answer = {CommandEnd::refused, why}; };
     if (h.request != CellCommand::none || h.waits_for_ack) {
         refuse(std::string("the dispatcher waits for the answer of the cell to ") + name(h.command.command));
         return std::nullopt;
@@ -26,9 +26,9 @@ std::optional<HandOffAction> take_request(StepContext& context) {
     return send_new(context, request, request == CellCommand::clear ? Uuid{} : context.job_id());
 }
 
-void end_request(StepContext& context, const std::string& answer) {
+void end_request(StepContext& context, CommandEnd end, const std::string& why) {
     if (context.h.request == CellCommand::none) return;
-    context.turn.request_answer = answer;
+    context.turn.request_answer = {end, why};
     context.h.request = CellCommand::none;
 }
 

@@ -153,9 +153,9 @@ struct HandOff : HandOffEnd, JobPast {
 struct HandOffTransition {
     HandOff state;
     HandOffAction action;
-    std::vector<std::string> lines;     // for the operator
-    std::vector<JournalEvent> journal;  // to be kept before the action is done
-    std::string request_answer;         // how a request ended; empty: it has not
+    std::vector<std::string> lines;               // for the operator
+    std::vector<JournalEvent> journal;            // to be kept before the action is done
+    std::optional<RequestAnswer> request_answer;  // how a request ended; nothing: it has not
 };
 
 }  // namespace qchopper

@@ -303,7 +303,7 @@ HandOffAction acknowledged(StepContext& context) {
             ++h.ready_commands;
             return plain(Kind::read_status);
         case run:
-            end_request(context, "OK");
+            end_request(context, CommandEnd::done);
             return plain(Kind::read_status);
         case reset:
             return plain(Kind::read_status);
@@ -341,7 +341,7 @@ HandOffAction refused(StepContext& context, AckResult result) {
     if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||
         h.step == release) {
         context.report(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
-        if (h.step == run) end_request(context, "refused: " + answer);
+        if (h.step == run) end_request(context, CommandEnd::refused, answer);
         if (h.step == run) return pause(context);
         if (h.step == release) h.is_owner = h.claim_sent = false;  // another dispatcher has the lease
         if (h.step == release) return end_hand_off(context);

@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "devices/wire/device_error.h"
@@ -17,6 +18,10 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t longest_line = 64;
+
+// The beginnings of the line of an answer.
+constexpr std::string_view done_line = "OK";
+constexpr std::string_view refused_line = "refused: ";
 
 std::filesystem::path socket_in(const std::filesystem::path& folder) {
     return folder / "requests";
@@ -41,12 +46,23 @@ void send_line(int descriptor, std::string text) {
     static_cast<void>(::send(descriptor, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
+RequestAnswer answer_of(const std::string& line) {
+    if (line == done_line) return {CommandEnd::done, {}};
+    if (line.starts_with(refused_line)) return {CommandEnd::refused, line.substr(refused_line.size())};
+    return {CommandEnd::unknown, line};
+}
+
 [[noreturn]] void refuse(const std::string& why) {
     throw DeviceError(DeviceFault::busy, "a dispatcher drives the cell, and " + why,
                       "Try again, or use the panel of the cell.");
 }
 
 }  // namespace
+
+std::string describe(const RequestAnswer& answer) {
+    if (answer.end == CommandEnd::done) return std::string(done_line);
+    return (answer.end == CommandEnd::refused ? std::string(refused_line) : "") + answer.why;
+}
 
 RequestSocket::RequestSocket(const std::filesystem::path& folder) : path_(socket_in(folder)) {
     const std::optional<sockaddr_un> address = address_of(path_);
@@ -63,7 +79,7 @@ RequestSocket::RequestSocket(const std::filesystem::path& folder) : path_(socket
 }
 
 RequestSocket::~RequestSocket() {
-    if (client_ >= 0 && is_asked_) send_line(client_, "refused: the dispatcher has ended");
+    answer({CommandEnd::refused, "the dispatcher has ended"});
     close_and_forget(client_);
     if (listener_ < 0) return;
     close_and_forget(listener_);
@@ -95,19 +111,19 @@ CellCommand RequestSocket::next() {
         is_asked_ = word == name(command);
         if (is_asked_) return command;
     }
-    send_line(client_, "refused: only Unhold and Clear are passed on");
+    send_line(client_, describe({CommandEnd::refused, "only Unhold and Clear are passed on"}));
     close_and_forget(client_);
     return CellCommand::none;
 }
 
-void RequestSocket::answer(const std::string& text) {
+void RequestSocket::answer(const RequestAnswer& answer) {
     if (!is_asked_) return;
     is_asked_ = false;
-    send_line(client_, text);
+    send_line(client_, describe(answer));
     close_and_forget(client_);
 }
 
-std::string ask_dispatcher(const std::filesystem::path& folder, CellCommand command, double patience_s) {
+RequestAnswer ask_dispatcher(const std::filesystem::path& folder, CellCommand command, double patience_s) {
     const std::optional<sockaddr_un> address = address_of(socket_in(folder));
     if (!address) refuse("its socket has too long a name: " + socket_in(folder).string());
     int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -126,7 +142,7 @@ std::string ask_dispatcher(const std::filesystem::path& folder, CellCommand comm
     }
     close_and_forget(descriptor);
     if (line.find('\n') == std::string::npos) refuse("it did not answer whether the cell has done it: ask the cell");
-    return line.substr(0, line.find('\n'));
+    return answer_of(line.substr(0, line.find('\n')));
 }
 
 }  // namespace qchopper

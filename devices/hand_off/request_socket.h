@@ -1,5 +1,6 @@
 // How another program of the same user asks a running dispatcher to pass Unhold or Clear to the cell: one line to a
-// Unix socket in the folder of the cell's journal, one line back.
+// Unix socket in the folder of the cell's journal, one line back: "OK", "refused: " and why, or what is known
+// otherwise.
 //
 // Only the owner of the folder can reach the socket. The dispatcher never waits for a client
 // (tests/devices/hand_off/request_socket_test.cpp).
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <string>
 
+#include "devices/hand_off/dispatch_options.h"
 #include "devices/wire/packml.h"
 
 namespace qchopper {
@@ -26,8 +28,8 @@ class RequestSocket {
     // Unhold or Clear if a client has asked for it, none otherwise; each request once. Anything else that a client
     // sends is answered with a refusal here.
     CellCommand next();
-    // To the client whose request next() returned last; one line.
-    void answer(const std::string& text);
+    // To the client whose request next() returned last.
+    void answer(const RequestAnswer& answer);
 
  private:
     void accept_client();
@@ -38,8 +40,11 @@ class RequestSocket {
     std::string line_;
 };
 
-// Asks the dispatcher that holds the journal in `folder`, and waits for its answer, at most patience_s seconds. Returns
-// the answer, "OK" if the cell has done it. Throws DeviceError (busy) if none listens or answers.
-std::string ask_dispatcher(const std::filesystem::path& folder, CellCommand command, double patience_s);
+// The line of an answer.
+std::string describe(const RequestAnswer& answer);
+
+// Asks the dispatcher that holds the journal in `folder`, and waits for its answer, at most patience_s seconds. Throws
+// DeviceError (busy) if none listens or answers.
+RequestAnswer ask_dispatcher(const std::filesystem::path& folder, CellCommand command, double patience_s);
 
 }  // namespace qchopper

@@ -233,13 +233,17 @@ TEST(HandOffRequest, UnholdIsPassedOnWhileTheJobRuns) {
         cell.step();
         cell.grant = [&](const Command& c) { return c.command == CellCommand::unhold ? answer : AckResult::ok; };
         cell.request = CellCommand::unhold;
-        while (cell.request_answer.empty() && cell.step()) {
+        while (!cell.request_answer && cell.step()) {
         }
-        EXPECT_NE(cell.request_answer.find(answer == AckResult::ok           ? "OK"
-                                           : answer == AckResult::no_consent ? "NO_CONSENT"
-                                                                             : "ask the cell"),
+        ASSERT_TRUE(cell.request_answer);
+        EXPECT_EQ(cell.request_answer->end, answer == AckResult::ok           ? CommandEnd::done
+                                            : answer == AckResult::no_consent ? CommandEnd::refused
+                                                                              : CommandEnd::unknown);
+        EXPECT_NE(cell.request_answer->why.find(answer == AckResult::ok           ? ""
+                                                : answer == AckResult::no_consent ? "NO_CONSENT"
+                                                                                  : "ask the cell"),
                   std::string::npos)
-            << cell.request_answer;
+            << cell.request_answer->why;
         EXPECT_GE(cell.count(CellCommand::unhold), 1);
         EXPECT_EQ(cell.state.step, HandOffStep::run);  // the job is followed as before
         cell.grant = nullptr;
@@ -252,9 +256,10 @@ TEST(HandOffRequest, AtOtherStepsAndUnderLocalControlItIsRefused) {
     ScriptedCell early;
     early.run_to(HandOffStep::prepare);
     early.request = CellCommand::unhold;
-    while (early.request_answer.empty() && early.step()) {
+    while (!early.request_answer && early.step()) {
     }
-    EXPECT_NE(early.request_answer.find("refused"), std::string::npos);
+    ASSERT_TRUE(early.request_answer);
+    EXPECT_EQ(early.request_answer->end, CommandEnd::refused);
     EXPECT_EQ(early.count(CellCommand::unhold), 0);
 
     ScriptedCell local;
@@ -262,9 +267,11 @@ TEST(HandOffRequest, AtOtherStepsAndUnderLocalControlItIsRefused) {
     local.status.flags |= flag::local_control;
     for (int n = 0; n < 5; ++n) local.step();
     local.request = CellCommand::unhold;
-    while (local.request_answer.empty() && local.step()) {
+    while (!local.request_answer && local.step()) {
     }
-    EXPECT_NE(local.request_answer.find("LOCAL_CONTROL"), std::string::npos) << local.request_answer;
+    ASSERT_TRUE(local.request_answer);
+    EXPECT_EQ(local.request_answer->end, CommandEnd::refused);
+    EXPECT_NE(local.request_answer->why.find("LOCAL_CONTROL"), std::string::npos) << local.request_answer->why;
     EXPECT_EQ(local.count(CellCommand::unhold), 0);
 }
 

@@ -26,12 +26,12 @@ CellCommand next_within(RequestSocket& socket, int ms) {
     return CellCommand::none;
 }
 
-std::future<std::string> ask(const Folder& folder, CellCommand command) {
+std::future<RequestAnswer> ask(const Folder& folder, CellCommand command) {
     return std::async(std::launch::async, [&folder, command] {
         try {
             return ask_dispatcher(folder.path, command, 5);
         } catch (const DeviceError& error) {
-            return "error: " + std::string(error.what());
+            return RequestAnswer{CommandEnd::unknown, "error: " + std::string(error.what())};
         }
     });
 }
@@ -42,20 +42,33 @@ TEST(RequestSocket, ARequestIsPassedOnOnceAndAnswered) {
     ASSERT_TRUE(socket.is_open());
     EXPECT_EQ(socket.next(), CellCommand::none);
     for (const CellCommand command : {CellCommand::unhold, CellCommand::clear}) {
-        std::future<std::string> answer = ask(folder, command);
+        std::future<RequestAnswer> answer = ask(folder, command);
         EXPECT_EQ(next_within(socket, 2000), command);
         EXPECT_EQ(socket.next(), CellCommand::none);
-        socket.answer("OK");
-        EXPECT_EQ(answer.get(), "OK");
+        socket.answer({CommandEnd::done, {}});
+        EXPECT_EQ(answer.get(), (RequestAnswer{CommandEnd::done, {}}));
+    }
+}
+
+// A command that the cell did not do must not be told as done.
+TEST(RequestSocket, EachAnswerArrivesAsItWasGiven) {
+    const Folder folder;
+    RequestSocket socket(folder.path);
+    for (const RequestAnswer& given : {RequestAnswer{CommandEnd::refused, "NO_CONSENT"},
+                                       RequestAnswer{CommandEnd::unknown, "the cell did not answer in time"}}) {
+        std::future<RequestAnswer> answer = ask(folder, CellCommand::unhold);
+        EXPECT_EQ(next_within(socket, 2000), CellCommand::unhold);
+        socket.answer(given);
+        EXPECT_EQ(answer.get(), given);
     }
 }
 
 TEST(RequestSocket, OtherCommandsAndOtherTextAreRefused) {
     const Folder folder;
     RequestSocket socket(folder.path);
-    std::future<std::string> answer = ask(folder, CellCommand::start);
+    std::future<RequestAnswer> answer = ask(folder, CellCommand::start);
     EXPECT_EQ(next_within(socket, 100), CellCommand::none);
-    EXPECT_EQ(answer.get(), "refused: only Unhold and Clear are passed on");
+    EXPECT_EQ(answer.get(), (RequestAnswer{CommandEnd::refused, "only Unhold and Clear are passed on"}));
 
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -66,22 +79,22 @@ TEST(RequestSocket, OtherCommandsAndOtherTextAreRefused) {
     ASSERT_GT(::send(silent, flood.data(), flood.size(), MSG_NOSIGNAL), 0);
     EXPECT_EQ(next_within(socket, 100), CellCommand::none);
     ::close(silent);
-    std::future<std::string> later = ask(folder, CellCommand::unhold);
+    std::future<RequestAnswer> later = ask(folder, CellCommand::unhold);
     EXPECT_EQ(next_within(socket, 2000), CellCommand::unhold);
-    socket.answer("OK");
-    EXPECT_EQ(later.get(), "OK");
+    socket.answer({CommandEnd::done, {}});
+    EXPECT_EQ(later.get(), (RequestAnswer{CommandEnd::done, {}}));
 }
 
 TEST(RequestSocket, WithoutADispatcherOrWithOneThatEndsTheClientIsTold) {
     const Folder folder;
-    EXPECT_NE(ask(folder, CellCommand::unhold).get().find("does not listen"), std::string::npos);
-    std::future<std::string> answer;
+    EXPECT_NE(ask(folder, CellCommand::unhold).get().why.find("does not listen"), std::string::npos);
+    std::future<RequestAnswer> answer;
     {
         RequestSocket socket(folder.path);
         answer = ask(folder, CellCommand::unhold);
         EXPECT_EQ(next_within(socket, 2000), CellCommand::unhold);
     }
-    EXPECT_EQ(answer.get(), "refused: the dispatcher has ended");
+    EXPECT_EQ(answer.get(), (RequestAnswer{CommandEnd::refused, "the dispatcher has ended"}));
     // A socket that a killed dispatcher left is replaced.
     { RequestSocket socket(folder.path); }
     RequestSocket again(folder.path);

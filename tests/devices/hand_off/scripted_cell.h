@@ -54,7 +54,7 @@ struct ScriptedCell {
         action = turn.action;
         lines.insert(lines.end(), turn.lines.begin(), turn.lines.end());
         events.insert(events.end(), turn.journal.begin(), turn.journal.end());
-        if (!turn.request_answer.empty()) request_answer = turn.request_answer;
+        if (turn.request_answer) request_answer = turn.request_answer;
         if (action.kind == Kind::finish) return false;
         now_s += call_s;
         status.heartbeat = static_cast<std::uint16_t>(freeze_s > 0 ? freeze_s / 0.5 : now_s / 0.5);
@@ -210,7 +210,7 @@ struct ScriptedCell {
     std::map<std::uint32_t, std::uint32_t> grants;  // of CLAIMs: their numbers, their epochs
     std::optional<ResultRecord> milled_before;      // the answer to QUERY_FILE
     CellCommand request = CellCommand::none;
-    std::string request_answer;
+    std::optional<RequestAnswer> request_answer;
     std::function<AckResult(const Command&)> grant;    // the result; none: not acknowledged
     std::function<bool(const HandOffAction&)> lose;    // the link is lost at this action
     std::function<int(const HandOffAction&)> refuse;   // the exception, or 0

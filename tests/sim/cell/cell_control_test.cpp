@@ -76,11 +76,11 @@ TEST(CellControl, HoldUnholdAndStopBesideADispatchThatGoesOn) {
     const Controlled rig(10);
     DispatchOptions options = rig::quick_dispatch(rig.folder.path);
     std::atomic<CellCommand> wanted = CellCommand::none;
-    std::string answer;
+    RequestAnswer answer;
     options.request = [&] { return wanted.exchange(CellCommand::none); };
     std::atomic<bool> is_answered = false;
-    options.answer_request = [&](const std::string& text) {
-        answer = text;
+    options.answer_request = [&](const RequestAnswer& given) {
+        answer = given;
         is_answered = true;
     };
     RunningJob running(rig, options);
@@ -95,7 +95,7 @@ TEST(CellControl, HoldUnholdAndStopBesideADispatchThatGoesOn) {
     wanted = CellCommand::unhold;
     ASSERT_TRUE(rig.comes_to(PackState::execute));
     for (int n = 0; n < 2000 && !is_answered; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_EQ(answer, "OK");
+    EXPECT_EQ(answer.end, CommandEnd::done);
     EXPECT_EQ(rig.send(CellCommand::stop).kind, Kind::done);
     running.thread.join();
     EXPECT_EQ(running.outcome.start_outcome, StartOutcome::started) << running.outcome.why;
