@@ -38,11 +38,11 @@ std::atomic<int> signal_number{0};
 std::atomic<long> first_signal_s{0};
 
 // The one document of --json.
-enum class Document : int { none, begun, printed, by_handler };
+enum class DocumentState : int { none, begun, printed, by_handler };
 std::atomic<bool> has_document{false};  // --json
-std::atomic<Document> document_state{Document::none};
+std::atomic<DocumentState> document_state{DocumentState::none};
 std::atomic<bool> ends_after_document{false};
-static_assert(std::atomic<Document>::is_always_lock_free && std::atomic<long>::is_always_lock_free);
+static_assert(std::atomic<DocumentState>::is_always_lock_free && std::atomic<long>::is_always_lock_free);
 
 constexpr char document_of_second_signal[] =
     R"({"schema":"qchopper-error-1","error":"stopped by a second signal","unchanged":"What was saved is kept.",)"
@@ -78,12 +78,12 @@ WakeUp wake_up;
 // Ends the process, unless a document is being printed: then the thread that prints it ends the process, or a third
 // signal.
 void end_in_handler() {
-    Document state = Document::none;
-    if (has_document && document_state.compare_exchange_strong(state, Document::by_handler)) {
+    DocumentState state = DocumentState::none;
+    if (has_document && document_state.compare_exchange_strong(state, DocumentState::by_handler)) {
         const ssize_t ignored = ::write(STDOUT_FILENO, document_of_second_signal, sizeof document_of_second_signal - 1);
         static_cast<void>(ignored);
     }
-    if (state == Document::begun && !ends_after_document.exchange(true)) return;
+    if (state == DocumentState::begun && !ends_after_document.exchange(true)) return;
     _exit(exit_interrupted);
 }
 
@@ -255,7 +255,7 @@ void Terminal::error(const std::string& line) {
     std::cerr << printable_lines(line) << std::endl;
 }
 
-void Terminal::show(const std::vector<std::string>& lines, const std::string& document) {
+void Terminal::show(const std::vector<std::string>& lines, const Document& document) {
     begin_end();
     const std::lock_guard lock(changing_);
     std::optional<RunTimes> times;
@@ -270,11 +270,12 @@ void Terminal::show(const std::vector<std::string>& lines, const std::string& do
     for (const std::string& line : table(*times)) error(line);
 }
 
-void Terminal::json(const std::string& document) {
+void Terminal::json(const Document& document) {
     if (!json_) return;
-    while (document_state.exchange(Document::begun) == Document::by_handler) pause();  // the process is ending
-    std::cout << document << std::endl;
-    document_state = Document::printed;
+    while (document_state.exchange(DocumentState::begun) == DocumentState::by_handler)
+        pause();  // the process is ending
+    std::cout << text_of(document) << std::endl;
+    document_state = DocumentState::printed;
     if (ends_after_document) _exit(exit_interrupted);
 }
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/report/document.h"
 #include "app/store/project_context.h"
 #include "base/timings.h"
 
@@ -43,9 +44,9 @@ class Terminal {
     void error(const std::string& line);
     // The result of a command, on stdout: the document with --json, else the lines. With timings a table of them
     // follows on stderr, and the document has a key for them.
-    void show(const std::vector<std::string>& lines, const std::string& document);
+    void show(const std::vector<std::string>& lines, const Document& document);
     // The one JSON document, on stdout; left out without --json.
-    void json(const std::string& document);
+    void json(const Document& document);
 
     void set_quiet();
     // From now on contexts measure the time of stages.

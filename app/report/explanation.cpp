@@ -182,7 +182,7 @@ std::vector<std::string> warnings(const Explanation& e) {
             ", which now comes out as " + std::to_string(now)};
 }
 
-std::string document(const Explanation& e, const Project& project, const std::string& picture) {
+Document document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (const std::size_t i : e.listed) best.push_back(to_json(e.ranked[i]));
     Json json{{"schema", "qchopper-explain-3"},
@@ -203,7 +203,7 @@ std::string document(const Explanation& e, const Project& project, const std::st
         json["max_judged_planes"] = e.max_judged;
     }
     add_scan(json, project);
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/engine/explain.h"
+#include "app/report/document.h"
 #include "segment/picture/plot.h"
 
 namespace qchopper {
@@ -23,6 +24,6 @@ std::vector<std::string> warnings(const Explanation& explanation);
 Plot plot(const Explanation& explanation, const std::string& project);
 
 // The document qchopper-explain-3, with the discarded pieces of the project; `picture` is the path of the plot.
-std::string document(const Explanation& explanation, const Project& project, const std::string& picture);
+Document document(const Explanation& explanation, const Project& project, const std::string& picture);
 
 }  // namespace qchopper

@@ -50,8 +50,8 @@ std::vector<std::string> lines(const ExportedProject& exported, const Project& p
     return text;
 }
 
-std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
-                     const std::filesystem::path& folder) {
+Document document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
+                  const std::filesystem::path& folder) {
     Json pieces = Json::array();
     for (const ExportedPiece& row : exported.pieces) {
         Json piece{{"piece", row.piece.name},
@@ -67,7 +67,7 @@ std::string document(const ExportedProject& exported, const ExportRequest& reque
         }
         pieces.push_back(std::move(piece));
     }
-    return text_of({{"schema", "qchopper-export-1"},
+    return compose({{"schema", "qchopper-export-1"},
                     {"project", folder.string()},
                     {"format", request.format},
                     {"pose", request.pose},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/engine/export_pieces.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -16,7 +17,7 @@ std::vector<std::string> warnings(const ExportedProject& exported, const ExportR
                                   const Project& project);
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project);
 // The document qchopper-export-1 (docs/user/export.md); `folder` is the project folder as it was typed.
-std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
-                     const std::filesystem::path& folder);
+Document document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
+                  const std::filesystem::path& folder);
 
 }  // namespace qchopper

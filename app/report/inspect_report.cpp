@@ -113,7 +113,7 @@ std::vector<std::string> lines(const InspectedFile& file) {
     return text;
 }
 
-std::string document(const InspectedFile& file) {
+Document document(const InspectedFile& file) {
     const Inspection& i = file.inspection;
     const BorderLoop* const longest = i.longest_hole();
     const Judgement judgement = judge(i);
@@ -155,7 +155,7 @@ std::string document(const InspectedFile& file) {
                     {"self_intersections", self_intersections_document(i.self_intersected)},
                     {"verdict", name_of_value(judgement.verdict)},
                     {"reasons", judgement.reasons}};
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/document.h"
 #include "segment/import/inspect.h"
 
 namespace qchopper {
@@ -17,6 +18,6 @@ struct InspectedFile {
 };
 
 std::vector<std::string> lines(const InspectedFile& file);
-std::string document(const InspectedFile& file);
+Document document(const InspectedFile& file);
 
 }  // namespace qchopper

@@ -13,9 +13,9 @@
 
 namespace qchopper {
 
-std::string error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
-                           int exit_code) {
-    return text_of({{"schema", "qchopper-error-1"},
+Document error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
+                        int exit_code) {
+    return compose({{"schema", "qchopper-error-1"},
                     {"error", error},
                     {"unchanged", unchanged},
                     {"to_do", to_do},
@@ -34,8 +34,8 @@ std::vector<std::string> lines(const WrittenSample& sample) {
     return text;
 }
 
-std::string document(const WrittenSample& sample) {
-    return text_of({{"schema", "qchopper-sample-1"},
+Document document(const WrittenSample& sample) {
+    return compose({{"schema", "qchopper-sample-1"},
                     {"specimen", sample.specimen},
                     {"file", sample.file},
                     {"faces", sample.mesh.triangles.size()},
@@ -48,8 +48,8 @@ std::string document(const WrittenSample& sample) {
                     {"size", describe_size(bounds(sample.mesh).size())}});
 }
 
-std::string listening_document(const std::string& address) {
-    return nlohmann::ordered_json{{"schema", "qchopper-cell-sim-1"}, {"listening", address}}.dump();
+Document listening_document(const std::string& address) {
+    return compose_line({{"schema", "qchopper-cell-sim-1"}, {"listening", address}});
 }
 
 std::vector<std::string> fault_lines() {
@@ -65,7 +65,7 @@ std::vector<std::string> fault_lines() {
     return lines;
 }
 
-std::string fault_document() {
+Document fault_document() {
     nlohmann::ordered_json faults = nlohmann::ordered_json::array();
     for (const NamedFault& row : all_faults()) {
         nlohmann::ordered_json one{{"name", row.name}, {"meaning", row.meaning}};
@@ -75,7 +75,7 @@ std::string fault_document() {
         }
         faults.push_back(std::move(one));
     }
-    return nlohmann::ordered_json{{"schema", "qchopper-faults-1"}, {"faults", std::move(faults)}}.dump();
+    return compose_line({{"schema", "qchopper-faults-1"}, {"faults", std::move(faults)}});
 }
 
 }  // namespace qchopper

@@ -5,13 +5,14 @@
 
 #include <string>
 
+#include "app/report/document.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/sample/sample.h"
 
 namespace qchopper {
 
-std::string error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
-                           int exit_code);
+Document error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
+                        int exit_code);
 
 // A specimen that was written to a file.
 struct WrittenSample {
@@ -22,13 +23,13 @@ struct WrittenSample {
     DrawnPenGrooves pen_grooves;
 };
 std::vector<std::string> lines(const WrittenSample& sample);
-std::string document(const WrittenSample& sample);
+Document document(const WrittenSample& sample);
 
 // `address`: HOST:PORT.
-std::string listening_document(const std::string& address);
+Document listening_document(const std::string& address);
 
 // The faults that a simulated cell can be told to have.
 std::vector<std::string> fault_lines();
-std::string fault_document();
+Document fault_document();
 
 }  // namespace qchopper

@@ -149,10 +149,10 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     return lines;
 }
 
-std::string document(const PreparedProject& prepared) {
+Document document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
     const auto piece_in_cell = [&](const PieceReport& piece) { return piece_json(piece, prepared.cell); };
-    Json json{{"schema", "qchopper-prepare-5"},
+    Json json{{"schema", prepare_schema},
               {"project", prepared.folder.string()},
               {"scan",
                {{"path", p.scan.path.string()},
@@ -175,7 +175,7 @@ std::string document(const PreparedProject& prepared) {
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};
     add_scan(json, p);
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

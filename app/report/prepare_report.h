@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/engine/open_project.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -13,7 +14,8 @@ namespace qchopper {
 std::vector<std::string> warnings(const PreparedProject& prepared);
 // A row per piece, then the fragments, the discarded pieces and the next command.
 std::vector<std::string> table(const PreparedProject& prepared);
-// The document qchopper-prepare-5 (tests/app/cli/json_test.cpp).
-std::string document(const PreparedProject& prepared);
+inline constexpr const char* prepare_schema = "qchopper-prepare-5";
+// Of this schema (tests/app/cli/json_test.cpp).
+Document document(const PreparedProject& prepared);
 
 }  // namespace qchopper

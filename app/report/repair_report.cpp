@@ -117,7 +117,7 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairRequest& re
     return text;
 }
 
-std::string document(const RepairedScan& scan, const RepairRequest& request) {
+Document document(const RepairedScan& scan, const RepairRequest& request) {
     const RepairReport& r = scan.report;
     Json json{{"schema", "qchopper-repair-3"},
               {"file", request.scan.string()},
@@ -152,7 +152,7 @@ std::string document(const RepairedScan& scan, const RepairRequest& request) {
     }
     json["warnings"] = scan.warnings;
     json["verdict"] = verdict(r);
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

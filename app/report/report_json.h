@@ -28,7 +28,4 @@ auto list_of(const Range& values, const ToJson& to_json) {
 // What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
 void add_scan(nlohmann::ordered_json& document, const Project& project);
 
-// The text of a document, indented by one space a level; bytes that are not UTF-8 are replaced. No line end.
-std::string text_of(const nlohmann::ordered_json& document);
-
 }  // namespace qchopper

@@ -273,7 +273,7 @@ std::vector<std::string> lines(const SegmentAnswer& answer) {
     return text;
 }
 
-std::string document(const SegmentAnswer& answer) {
+Document document(const SegmentAnswer& answer) {
     const Project& project = answer.project;
     Json pieces = Json::array();
     for (std::size_t i = 0; i < project.pieces.size(); ++i) {
@@ -304,7 +304,7 @@ std::string document(const SegmentAnswer& answer) {
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
     if (answer.preview) json["preview"] = preview_json(*answer.preview, project);
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

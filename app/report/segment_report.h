@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/engine/decide.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -17,6 +18,6 @@ nlohmann::ordered_json discarded_json(const Project& project);
 // The notes only, if no project was made.
 std::vector<std::string> lines(const SegmentAnswer& answer);
 // The document qchopper-segment-3 (tests/app/cli/segment_test.cpp).
-std::string document(const SegmentAnswer& answer);
+Document document(const SegmentAnswer& answer);
 
 }  // namespace qchopper

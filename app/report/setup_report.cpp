@@ -202,7 +202,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
     return text;
 }
 
-std::string document(const SetupAnswer& answer) {
+Document document(const SetupAnswer& answer) {
     const auto setup_in_cell = [&](const Setup& setup) { return setup_json(setup, answer.cell); };
     Json pieces = Json::array();
     for (const PieceSetups& p : answer.pieces) {
@@ -226,7 +226,7 @@ std::string document(const SetupAnswer& answer) {
               {"pieces", pieces}};
     if (answer.is_job_written()) json["program"] = program_json(*answer.job);
     if (answer.ignored) json["ignored"] = json_of(*answer.ignored);
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/engine/setup_project.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -29,6 +30,6 @@ void add_setup(nlohmann::ordered_json& json, const Setup& setup, const Cell& cel
 
 std::vector<std::string> lines(const SetupAnswer& answer);
 // The document qchopper-setup-2 (tests/app/cli/setup_test.cpp).
-std::string document(const SetupAnswer& answer);
+Document document(const SetupAnswer& answer);
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Text and JSON from a value. The document is parsed and printed again, which keeps every number.
+// Text and JSON from a value.
 
 #include "app/report/timings_report.h"
 
@@ -35,16 +35,16 @@ std::vector<std::string> table(const RunTimes& times) {
     return text;
 }
 
-std::string with_timings(const std::string& document, const RunTimes& times) {
+Document with_timings(const Document& document, const RunTimes& times) {
     const auto stage_json = [](const StageTime& stage) {
         return Json{{"name", stage.name}, {"wall_s", stage.spent.wall_s}, {"cpu_s", stage.spent.cpu_s}};
     };
-    Json json = Json::parse(document);
+    Json json = *document.json;
     json["timings"] = {{"stages", list_of(times.stages, stage_json)},
                        {"wall_s", times.whole.wall_s},
                        {"cpu_s", times.whole.cpu_s},
                        {"peak_memory_bytes", times.peak_memory_bytes}};
-    return document.find('\n') == std::string::npos ? json.dump() : text_of(json);
+    return document.is_one_line ? compose_line(std::move(json)) : compose(std::move(json));
 }
 
 }  // namespace qchopper

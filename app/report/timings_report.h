@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/document.h"
 #include "base/timings.h"
 
 namespace qchopper {
@@ -13,7 +14,7 @@ namespace qchopper {
 std::vector<std::string> table(const RunTimes& times);
 
 // The document with one key more: "timings": { stages: [ { name, wall_s, cpu_s } ... ], wall_s, cpu_s,
-// peak_memory_bytes }. Precondition: it is a JSON object. A document of one line stays one.
-std::string with_timings(const std::string& document, const RunTimes& times);
+// peak_memory_bytes }. Precondition: it is an object.
+Document with_timings(const Document& document, const RunTimes& times);
 
 }  // namespace qchopper

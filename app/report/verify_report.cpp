@@ -76,8 +76,8 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
     return text;
 }
 
-std::string document(const VerifyAnswer& answer) {
-    return text_of({{"schema", "qchopper-verify-1"},
+Document document(const VerifyAnswer& answer) {
+    return compose({{"schema", "qchopper-verify-1"},
                     {"all_positive", is_all_positive(answer)},
                     {"jobs", list_of(answer, job_json)}});
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/dispatch/verify_jobs.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -13,6 +14,6 @@ bool is_all_positive(const VerifyAnswer& answer);
 
 std::vector<std::string> lines(const VerifyAnswer& answer);
 // The document qchopper-verify-1 (tests/app/cli/verify_test.cpp).
-std::string document(const VerifyAnswer& answer);
+Document document(const VerifyAnswer& answer);
 
 }  // namespace qchopper

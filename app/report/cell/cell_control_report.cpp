@@ -77,9 +77,9 @@ std::vector<std::string> lines(const CellStatusReport& report) {
     return columns(rows);
 }
 
-std::string document(const CellStatusReport& report) {
+Document document(const CellStatusReport& report) {
     const Status& s = report.status;
-    return text_of(Json{{"schema", "qchopper-cell-status-1"},
+    return compose(Json{{"schema", "qchopper-cell-status-1"},
                         {"endpoint", report.endpoint},
                         {"cell_id", s.cell_id},
                         {"simulated", s.has(flag::simulated)},
@@ -109,8 +109,8 @@ std::vector<std::string> lines(const CellControlReport& report) {
     return text;
 }
 
-std::string document(const CellControlReport& report) {
-    return text_of(Json{{"schema", "qchopper-cell-command-1"},
+Document document(const CellControlReport& report) {
+    return compose(Json{{"schema", "qchopper-cell-command-1"},
                         {"endpoint", report.endpoint},
                         {"action", report.action},
                         {"end", report.end},

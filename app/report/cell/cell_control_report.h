@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "app/dispatch/cell_commands.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
 std::vector<std::string> lines(const CellStatusReport& report);
-std::string document(const CellStatusReport& report);
+Document document(const CellStatusReport& report);
 
 std::vector<std::string> lines(const CellControlReport& report);
-std::string document(const CellControlReport& report);
+Document document(const CellControlReport& report);
 
 }  // namespace qchopper

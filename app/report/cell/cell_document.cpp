@@ -166,11 +166,11 @@ Json listed_json(const ListedCell& row) {
 
 }  // namespace
 
-std::string document(const std::vector<ListedCell>& cells) {
-    return text_of({{"schema", "qchopper-cells-1"}, {"cells", list_of(cells, listed_json)}});
+Document document(const std::vector<ListedCell>& cells) {
+    return compose({{"schema", "qchopper-cells-1"}, {"cells", list_of(cells, listed_json)}});
 }
 
-std::string document(const ShownCell& shown) {
+Document document(const ShownCell& shown) {
     const Cell& cell = shown.cell;
     Json json = {{"schema", "qchopper-cell-2"},
                  {"file", shown.file},
@@ -189,12 +189,12 @@ std::string document(const ShownCell& shown) {
                  {"machine", cell.machine ? machine_json(*cell.machine, cell.margins) : Json()}};
     if (!cell.machine) json["margin"] = margins_json(cell.margins);
     if (shown.picture) json["picture"] = shown.picture->file;
-    return text_of(json);
+    return compose(json);
 }
 
-std::string document(const PlacesInCell& places) {
+Document document(const PlacesInCell& places) {
     const BlockPlaces& map = places.map;
-    return text_of({{"schema", "qchopper-cell-reach-2"},
+    return compose({{"schema", "qchopper-cell-reach-2"},
                     {"file", places.file},
                     {"block_mm", json_of(map.block)},
                     {"tilt_deg", degrees(map.tilt)},
@@ -210,8 +210,8 @@ std::string document(const PlacesInCell& places) {
                     {"best", json_of(map.best)}});
 }
 
-std::string document(const CheckedCell& checked) {
-    return text_of({{"schema", "qchopper-cell-check-1"},
+Document document(const CheckedCell& checked) {
+    return compose({{"schema", "qchopper-cell-check-1"},
                     {"file", checked.file},
                     {"version", version},
                     {"uncertain", list_of(checked.check.uncertain, origin_json)},

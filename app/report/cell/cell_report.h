@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/document.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
 #include "cam/setup/placement/block_places.h"
@@ -46,13 +47,13 @@ struct PlacesInCell {
 };
 
 std::vector<std::string> lines(const std::vector<ListedCell>& cells);
-std::string document(const std::vector<ListedCell>& cells);
+Document document(const std::vector<ListedCell>& cells);
 std::vector<std::string> lines(const ShownCell& shown);
-std::string document(const ShownCell& shown);
+Document document(const ShownCell& shown);
 std::vector<std::string> lines(const CheckedCell& checked);
-std::string document(const CheckedCell& checked);
+Document document(const CheckedCell& checked);
 // Of the map a row per y, the largest first, as one looks at a drawing.
 std::vector<std::string> lines(const PlacesInCell& places);
-std::string document(const PlacesInCell& places);
+Document document(const PlacesInCell& places);
 
 }  // namespace qchopper

@@ -102,7 +102,7 @@ std::vector<std::string> lines(const DispatchReport& report) {
     return text;
 }
 
-std::string document(const DispatchReport& report, const std::string& schema) {
+Document document(const DispatchReport& report, const std::string& schema) {
     Json jobs = Json::array();
     for (const DispatchedJob& handed : report.handed) jobs.push_back(job_json(handed));
     Json json = {{"schema", schema},
@@ -111,7 +111,7 @@ std::string document(const DispatchReport& report, const std::string& schema) {
                  {"all_complete", report.is_complete()},
                  {"jobs", jobs}};
     if (!report.refused.empty()) json["refused"] = report.refused;
-    return text_of(json);
+    return compose(json);
 }
 
 }  // namespace qchopper

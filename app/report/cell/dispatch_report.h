@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/dispatch/dispatch_jobs.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
@@ -22,6 +23,6 @@ struct DispatchReport {
 
 std::vector<std::string> lines(const DispatchReport& report);
 // `schema`: "qchopper-dry-run-2" or "qchopper-dispatch-2".
-std::string document(const DispatchReport& report, const std::string& schema);
+Document document(const DispatchReport& report, const std::string& schema);
 
 }  // namespace qchopper

@@ -71,7 +71,7 @@ std::vector<std::string> lines(const std::vector<JournalReport>& reports) {
     return text;
 }
 
-std::string document(const std::vector<JournalReport>& reports) {
+Document document(const std::vector<JournalReport>& reports) {
     Json journals = Json::array();
     for (const JournalReport& report : reports) {
         Json one = {{"folder", report.folder},
@@ -88,7 +88,7 @@ std::string document(const std::vector<JournalReport>& reports) {
         }
         journals.push_back(std::move(one));
     }
-    return text_of(Json{{"schema", "qchopper-journal-1"}, {"journals", journals}});
+    return compose(Json{{"schema", "qchopper-journal-1"}, {"journals", journals}});
 }
 
 }  // namespace qchopper

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/document.h"
 #include "devices/journal/journal.h"
 
 namespace qchopper {
@@ -16,6 +17,6 @@ struct JournalReport {
 };
 
 std::vector<std::string> lines(const std::vector<JournalReport>& reports);
-std::string document(const std::vector<JournalReport>& reports);
+Document document(const std::vector<JournalReport>& reports);
 
 }  // namespace qchopper

@@ -16,7 +16,8 @@ namespace {
 
 using namespace sheet;
 
-// What stands between the marks of a page, or nothing.
+// What stands between the marks of a page, or nothing. The marks are part of the format of a job file, which keeps of
+// its sheet the document and not all of which that was made.
 std::string page_in(const Bytes& html) {
     const std::string text(html.begin(), html.end());
     const std::size_t begin = text.find(page_begin);

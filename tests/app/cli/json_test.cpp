@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/report/prepare_report.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -53,7 +54,7 @@ TEST_F(Json, OfPrepare) {
     program::Arguments arguments = program::prepare_arguments("scan.ply");
     arguments.insert(arguments.end(), {"-o", "p.qch", "--json"});
     const program::Ended ended = run(arguments);
-    const json made = document(ended, "qchopper-prepare-5");
+    const json made = document(ended, prepare_schema);
     EXPECT_EQ(made["cuts"].size(), 2U);
     EXPECT_EQ(made["all_fit"], true);
     double volume = 0;
@@ -83,7 +84,7 @@ TEST_F(Json, OfAPieceThatDoesNotFit) {
     program::put(folder.path / "low.toml", cell);
     const program::Ended ended =
         run({"prepare", "scan.ply", "--units", "mm", "--cell", "low.toml", "--min-cuts", "1", "-o", "p.qch", "--json"});
-    const json made = document(ended, "qchopper-prepare-5", 1);
+    const json made = document(ended, prepare_schema, 1);
     EXPECT_EQ(made["all_fit"], false);
     for (const json& piece : made["pieces"]) {
         EXPECT_EQ(piece["fits"], false);

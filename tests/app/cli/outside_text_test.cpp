@@ -35,7 +35,7 @@ TEST(OutsideText, OfAnAlarmIsEscapedInLinesAndDocument) {
     for (const std::string& line : lines(with_alarm())) text += line + "\n";
     EXPECT_TRUE(is_harmless(text)) << text;
     EXPECT_NE(text.find(std::string("first 5 ") + shown), std::string::npos) << text;
-    const std::string made = document(with_alarm());
+    const std::string made = text_of(document(with_alarm()));
     EXPECT_TRUE(is_harmless(made)) << made;
     EXPECT_EQ(nlohmann::json::parse(made)["alarm_text"], shown);
 }

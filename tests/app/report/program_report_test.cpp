@@ -33,7 +33,7 @@ TEST(ProgramReport, MovesThatAreLeftOutAreSaidOncePerPieceAndStandInEveryDocumen
     EXPECT_EQ(json["verdicts"][0]["figures"]["moves_left_out_mm"], 6);
     EXPECT_EQ(json["verdicts"][0]["notes"][0], piece.verdicts[0].notes[0]);
     const VerifyAnswer answer{{"jobs/Q.qjob", piece.verdicts[0]}};
-    const auto verified = nlohmann::json::parse(document(answer));
+    const auto verified = nlohmann::json::parse(text_of(document(answer)));
     EXPECT_EQ(verified["jobs"][0]["notes"][0], piece.verdicts[0].notes[0]);
     EXPECT_EQ(lines(answer)[2], "  Note: " + piece.verdicts[0].notes[0] + ".");
 }
