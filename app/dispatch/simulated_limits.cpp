@@ -8,7 +8,9 @@
 #include "cam/setup/block.h"
 
 namespace qchopper {
+namespace {
 
+// The largest extents of a block as it may stand: turned by 90 degrees about z, and sawn in any orientation.
 Vec3 largest_stock(const Cell& cell) {
     Vec3 largest;
     for (const Stock& stock : cell.stock) {
@@ -20,6 +22,8 @@ Vec3 largest_stock(const Cell& cell) {
     }
     return largest;
 }
+
+}  // namespace
 
 CellLimits simulated_limits(const Cell& cell) {
     CellLimits limits;

@@ -10,9 +10,6 @@
 
 namespace qchopper {
 
-// The largest extents of a block as it may stand: turned by 90 degrees about z, and sawn in any orientation. O(blocks).
-Vec3 largest_stock(const Cell& cell);
-
 // The reach is in the base frame of a program whose block stands over the middle of the table: check_stock_fit() asks
 // for that, and a ticket does not tell where else the block stands. O(blocks + tools).
 CellLimits simulated_limits(const Cell& cell);

@@ -119,13 +119,10 @@ double MirrorMatches::score(const Plane& plane, const Matching& how) const {
     return sum / static_cast<double>(matches.size());
 }
 
-std::size_t share_of(std::size_t count, double share) {
-    return std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(count)));
-}
-
 void keep_closest(std::vector<MirrorMatch>& matches, double share) {
     if (matches.empty()) return;
-    const std::size_t kept = share_of(matches.size(), share);
+    const auto count = static_cast<double>(matches.size());
+    const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>(share * count));
     std::nth_element(matches.begin(), matches.begin() + static_cast<std::ptrdiff_t>(kept) - 1, matches.end(),
                      [](const MirrorMatch& a, const MirrorMatch& b) { return a.distance2 < b.distance2; });
     matches.resize(kept);

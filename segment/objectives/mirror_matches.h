@@ -69,10 +69,7 @@ SurfaceSamples symmetry_samples(const TriangleMesh& scan, std::size_t points, do
 
 constexpr double scored_share = 0.9;  // of the distances
 
-// So many of a list, at least one.
-std::size_t share_of(std::size_t count, double share);
-
-// Leaves that share of the matches, those of the least distances.
+// Leaves that share of the matches, at least one, those of the least distances.
 void keep_closest(std::vector<MirrorMatch>& matches, double share);
 
 }  // namespace qchopper

@@ -140,10 +140,6 @@ void save_memory(const std::filesystem::path& file, const CellMemory& memory) {
     write_file(file, to_json(memory));
 }
 
-std::string to_json(const SaveMarks& marks) {
-    return Json{{"schema", 1}, {"last", marks.last}, {"next", marks.next}}.dump(1) + "\n";
-}
-
 SaveMarks load_marks(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return {};
@@ -163,7 +159,7 @@ SaveMarks load_marks(const std::filesystem::path& file) {
 }
 
 void save_marks(const std::filesystem::path& file, const SaveMarks& marks) {
-    write_file(file, to_json(marks));
+    write_file(file, Json{{"schema", 1}, {"last", marks.last}, {"next", marks.next}}.dump(1) + "\n");
 }
 
 }  // namespace qchopper

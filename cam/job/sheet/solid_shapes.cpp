@@ -76,12 +76,6 @@ TriangleMesh ball_mesh(Vec3 middle, double radius) {
     return turned_profile(middle, {0, 0, 1}, profile);
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
-    for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
 TriangleMesh box_mesh(const PlacedBox& box) {
     TriangleMesh mesh;
     add_box(mesh, {-box.half, box.half});

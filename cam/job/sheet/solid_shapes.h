@@ -15,8 +15,6 @@
 
 namespace qchopper {
 
-void append(TriangleMesh& mesh, const TriangleMesh& other);
-
 // The 12 edges of a box, each as a box of no width, and a bar along one of them, which it surrounds by half a width.
 std::array<Box, 12> edges_of(const Box& box);
 void add_bar(TriangleMesh& mesh, const Box& edge, double half_width);

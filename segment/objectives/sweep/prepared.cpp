@@ -78,8 +78,7 @@ void add_boxes_of_clusters(PreparedPiece& p) {
     }
 }
 
-}  // namespace
-
+// Each once per cap. O(triangles * half-spaces of the piece).
 std::vector<CapPoint> cap_points(const Piece& piece) {
     std::vector<CapPoint> points;
     if (piece.mesh->cap_of.empty()) return points;
@@ -96,6 +95,8 @@ std::vector<CapPoint> cap_points(const Piece& piece) {
     }
     return points;
 }
+
+}  // namespace
 
 void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces) {

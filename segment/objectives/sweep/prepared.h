@@ -46,8 +46,6 @@ struct CapPoint {
     std::uint32_t point = 0;
     Vec3 outward;
 };
-// Each once per cap. O(triangles * half-spaces of the piece).
-std::vector<CapPoint> cap_points(const Piece& piece);
 
 struct PreparedPiece {
     const Piece* piece = nullptr;  // not owned: must outlive this

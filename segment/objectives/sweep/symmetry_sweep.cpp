@@ -27,6 +27,9 @@ std::vector<Vec3> points_in_section(const PreparedPiece& prepared, const Plane& 
     return points;
 }
 
+namespace {
+
+// O(points squared).
 double asymmetry_mm(std::span<const Vec3> points, const Plane& symmetry) {
     if (points.empty()) return 0;
     std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
@@ -44,6 +47,8 @@ double asymmetry_mm(std::span<const Vec3> points, const Plane& symmetry) {
     for (const double square : least) sum += square;
     return std::sqrt(sum / static_cast<double>(points.size()));
 }
+
+}  // namespace
 
 void add_symmetry(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                   const SweptSections& sections, const Plane& symmetry,

@@ -21,10 +21,7 @@ constexpr double section_points = 256;
 std::vector<Vec3> points_in_section(const PreparedPiece& prepared, const Plane& plane, const SweptSections& sections,
                                     std::size_t index, double area_mm2);
 
-// O(points squared).
-double asymmetry_mm(std::span<const Vec3> points, const Plane& symmetry);
-
-// Fills in symmetry_mm of the evaluations, one per offset.
+// Fills in symmetry_mm of the evaluations, one per offset. O(offsets * points of a section squared).
 void add_symmetry(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                   const SweptSections& sections, const Plane& symmetry,
                   std::span<std::optional<CutEvaluation>> evaluations);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "segment/mesh/normals.h"
-#include "segment/objectives/sweep/prepared.h"
 #include "segment/objectives/thin_part.h"
 #include "segment/raster/parallel_rays.h"
 
@@ -46,7 +45,12 @@ double binary_fragility(const Piece& piece, const Plane& plane, double distance)
         off.push_back(std::abs(h - plane.offset));
         rays.push_back({mesh.points[point], !above, distance});
     };
-    for (const CapPoint& c : cap_points(piece)) ask(c.point, c.outward);
+    for (const HalfSpace& half_space : piece.half_spaces) {
+        for (std::size_t t = 0; t < mesh.triangles.size() && !mesh.cap_of.empty(); ++t) {
+            if (cap_of(mesh, t) != half_space.cut) continue;
+            for (const std::uint32_t v : mesh.triangles[t]) ask(v, -half_space.up());
+        }
+    }
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (std::uint32_t v = 0; v < normals.size(); ++v) ask(v, normals[v]);
     const std::vector<double> free_lengths = ray_distances(mesh, plane.normal, rays);

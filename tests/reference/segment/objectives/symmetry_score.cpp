@@ -25,7 +25,8 @@ double symmetry_score(std::span<const Vec3> points, const Plane& plane) {
     }
     if (distances.empty()) return std::numeric_limits<double>::infinity();
     std::sort(distances.begin(), distances.end());
-    const std::size_t kept = share_of(distances.size(), scored_share);
+    const auto count = static_cast<double>(distances.size());
+    const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>(scored_share * count));
     return std::accumulate(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) /
            static_cast<double>(kept);
 }
