@@ -1,4 +1,4 @@
-// One table per object of the JSON. Of what is written, the reader gets what it compares.
+// One table per object of the JSON. Of what is written, the reader gets what it compares. O(checks).
 
 #include "cam/job/envelope_document.h"
 

@@ -1,4 +1,5 @@
 // One table per object of the JSON. A job that is written becomes what its reader gets, so both have the same table.
+// O(orientations + caps + chunks).
 
 #include "cam/job/manifest.h"
 

@@ -1,5 +1,6 @@
 // Rays are cast sample by sample, so that consecutive rays begin in the same place of the tree; a cut copies the rows
-// of the samples and turns the distances beyond its plane infinite. About half of samples x directions are rays.
+// of the samples and turns the distances beyond its plane infinite. About half of samples x directions are rays, of
+// O(log triangles) each; a cut takes O(samples * directions), and new rays only where it parts solids on one side.
 
 #include "segment/access/accessibility.h"
 

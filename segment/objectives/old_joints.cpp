@@ -1,6 +1,7 @@
 // Triangles of the cap that lie on one side of a plane are added up in the order of their heights, from both ends, so
 // that the sums of a plane do not depend on the others; those that a plane crosses are clipped. Places become
-// available, as planes go by, in the order of their heights; of each row the first and the last one are kept.
+// available, as planes go by, in the order of their heights; of each row the first and the last one are kept. Per
+// normal O(n log n) in the triangles of the cap and its places, and O(1) for each triangle that a plane crosses.
 
 #include "segment/objectives/old_joints.h"
 

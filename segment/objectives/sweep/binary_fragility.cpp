@@ -1,6 +1,7 @@
 // The sweep: vertices that may count are sorted by the slab between two offsets that they lie in. Planes that are not
 // decided yet ask the nearest vertices of each side first, in rounds of growing size; the rays of a round are one batch
-// (parallel_rays.h). Only where normals alone do not decide all planes are the edges around vertices looked at.
+// (parallel_rays.h). Only where normals alone do not decide all planes are the edges around vertices looked at. Per
+// normal O(vertices log offsets), and at most a ray per vertex.
 
 #include "segment/objectives/sweep/binary_fragility.h"
 
