@@ -199,4 +199,9 @@ struct Arguments {
         command;
 };
 
+// Reads the command line. Nothing if help or version was asked for, which is then printed on stdout. Throws InputError
+// (use) for unknown options and commands, missing ones, and wrong values; which options go together is not checked
+// (check_arguments.h).
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
 }  // namespace qchopper

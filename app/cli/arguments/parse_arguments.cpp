@@ -1,11 +1,10 @@
 // One function per command, on the option parser CLI11.
 
-#include "app/cli/arguments/parse_arguments.h"
-
 #include <CLI/CLI.hpp>
 
 #include <iostream>
 
+#include "app/cli/arguments/arguments.h"
 #include "app/cli/arguments/examples.h"
 #include "app/cli/arguments/option_values.h"
 #include "app/cli/arguments/project_options.h"
