@@ -52,17 +52,6 @@ class DeepWay {
     double mm2_ = 0;
 };
 
-// The lowest point of a tool whose tip and axis are given, in the frame of both.
-double lowest_of_tool(const CuttingTool& tool, Vec3 tip, Vec3 tool_axis) {
-    const Cutter cutter = cutter_of(tool);
-    const double sine = std::sqrt(std::max(0.0, 1 - tool_axis.z * tool_axis.z));
-    if (cutter.sin_half > 0) {
-        const double of_tip = cutter.corner * (tool_axis.z - 1);
-        return tip.z + std::min(of_tip, profile_height(cutter, cutter.radius) * tool_axis.z - cutter.radius * sine);
-    }
-    return tip.z + cutter.corner * tool_axis.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
-}
-
 class StockMilling {
  public:
     StockMilling(StockModel& stock_model, const ReplayScene& scene, FindingLog& log)
@@ -127,8 +116,7 @@ void StockMilling::take_line(const TipLine& line, const std::vector<Vec3>& way) 
 }
 
 void StockMilling::check_bounds(const TipLine& line, const CuttingTool& tool) {
-    const double low = std::min(lowest_of_tool(tool, line.from, tool_axis_of(line)),
-                                lowest_of_tool(tool, line.to, tool_axis_of(line)));
+    const double low = std::min(line.from.z, line.to.z) + lowest_point(cutters_[line.tool], tool_axis_of(line).z);
     const double least = scene_.floor_z();
     const double beyond = least - low;
     if (beyond > written) {

@@ -129,8 +129,15 @@ std::vector<BodyDisc> discs_of(const CuttingTool& tool, const Spindle& spindle) 
     return discs;
 }
 
-// Whether the body of a tool holds that of a finer one wherever the finer one touches what the tool touches: its ball
-// in the tool's ball, so that it stands up to the difference of their radii beside the tool, and no lower.
+// Whether the edges of a tool touch nothing that those of a finer one do not: a ball rolls about in a larger ball, and
+// a flat end slides about in a wider one. A flat end does not come to the ends of a bull or cone, nor these to each
+// other's.
+bool is_held_by(const CuttingTool& finer, const CuttingTool& tool) {
+    return finer.shape == tool.shape && (tool.shape == ToolShape::ball || tool.shape == ToolShape::flat);
+}
+
+// Whether holder and spindle of a tool hold those of a finer one wherever the finer one touches what the tool touches:
+// is_held_by() it, the finer one stands up to the difference of their radii beside the tool, and no lower.
 bool holds_all_of(const CuttingTool& tool, const CuttingTool& finer, const Spindle& spindle) {
     const double beside = 0.5 * (tool.diameter - finer.diameter);
     const std::vector<BodyDisc> own = discs_of(tool, spindle);
@@ -244,9 +251,10 @@ std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector
     keep_finishing(tools, machine.tools);
     std::vector<const Closing*> closings;
     for (const std::size_t tool : tools) {
-        if (!closings.empty() && !closings.back()->map.is_limited) break;
         const bool adds_nothing = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
-            return holds_all_of(machine.tools[tool], machine.tools[finer->tool], machine.spindle);
+            const CuttingTool& other = machine.tools[finer->tool];
+            return is_held_by(other, machine.tools[tool]) &&
+                   (!finer->map.is_limited || holds_all_of(machine.tools[tool], other, machine.spindle));
         });
         if (!adds_nothing) closings.push_back(&of(orientation, tool, context));
     }

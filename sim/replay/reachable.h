@@ -52,10 +52,11 @@ class Closings {
  public:
     // The scene must outlive it.
     Closings(const ReplayScene& scene, double cell) : scene_(scene), cell_(cell) {}
-    // What the tools of these indices reach together along a direction: the closing by the finest of them, and, where
-    // its holder keeps it away, those by coarser ones whose holder does not. Others add nothing: a larger ball fits in
-    // only where a smaller one does. Of tools of several shapes only the ball-ended ones count, which finish; where
-    // none is, all but drills. Valid while this object lives. Throws Cancelled.
+    // What the tools of these indices reach together along a direction: the closing by the finest of each shape, and,
+    // where its holder keeps it away, those by coarser ones whose holder does not. Others add nothing: a larger ball
+    // fits in only where a smaller one does, a wider flat end where a narrower one does; of bulls and cones all are
+    // closed. Of tools of several shapes only the ball-ended ones count, which finish; where none is, all but drills.
+    // Valid while this object lives. Throws Cancelled.
     std::vector<const Closing*> along(std::size_t orientation, std::vector<std::size_t> tools, const Context& context);
 
  private:

@@ -93,6 +93,16 @@ double profile_height(const Cutter& cutter, double r) {
     return cutter.corner * (1 - cutter.sin_half) + (r - touch) * cutter.cos_half / cutter.sin_half;
 }
 
+// That of the rounded tip or edge, or the rim at full radius.
+double lowest_point(const Cutter& cutter, double axis_z) {
+    const double sine = std::sqrt(std::max(0.0, 1 - axis_z * axis_z));
+    const double of_corner = cutter.corner * (axis_z - 1);
+    if (cutter.sin_half > 0) {
+        return std::min(of_corner, profile_height(cutter, cutter.radius) * axis_z - cutter.radius * sine);
+    }
+    return of_corner - (cutter.radius - cutter.corner) * sine;
+}
+
 SweptCutter::SweptCutter(const Cutter& cutter, Vec3 move)
     : cutter_(cutter), move_(move), length_(std::sqrt(move.x * move.x + move.y * move.y)) {
     if (length_ < 1e-9) {

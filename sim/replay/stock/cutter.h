@@ -31,6 +31,10 @@ Cutter inset_cutter(const Cutter& cutter, double inset);
 // Height of the surface above the tip at a distance r from the axis, 0 <= r <= radius.
 double profile_height(const Cutter& cutter, double r);
 
+// Height above the tip, never above 0, of the lowest point of a cutter that leans: `axis_z` is the z of the unit vector
+// from its tip into the spindle. Precondition: it does not point down (tests/sim/replay/stock/cutter_test.cpp).
+double lowest_point(const Cutter& cutter, double axis_z);
+
 // A cutter whose tip goes straight from (0, 0, 0) along `move`, while its axis stays z.
 class SweptCutter {
  public:

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 
 #include "sim/replay/leftover.h"
@@ -163,6 +164,39 @@ TEST(Closings, TheFinestIsEnoughWhereItsHolderIsClear) {
 TEST(Closings, LongerToolsCountBesideAWallThatStopsTheHolderOfTheFinest) {
     expect_few_are_enough(130, 2);
     expect_few_are_enough(190, 3);
+}
+
+// Two bars on edge, with a valley of 45 degrees between them: a flat end of 20 mm stops 10 mm above its bottom, a bull
+// of 24 mm on an edge of 11 mm comes lower.
+TEST(Closings, ABullGoesDeeperIntoAValleyThanAFinerFlatEnd) {
+    Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    CuttingTool bull = cell.machine->tools[1];
+    bull.number = 9;
+    bull.shape = ToolShape::bull;
+    bull.diameter = 24;
+    bull.corner_radius = 11;
+    CuttingTool wide = cell.machine->tools[1];
+    wide.number = 10;
+    wide.diameter = 30;
+    cell.machine->tools = {cell.machine->tools[1], bull, wide};
+    const double ridge = 30 * std::sqrt(2.0);
+    const TriangleMesh bar = shapes::rotated(shapes::box({-30, 0, -30}, {30, 60, 30}), {0, 1, 0}, std::numbers::pi / 4);
+    const TriangleMesh mesh =
+        shapes::joined({shapes::moved(bar, {-ridge, 0, ridge}), shapes::moved(bar, {ridge, 0, ridge})});
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.orientations = {{{0, 0, 1}, 0, {}}};
+    scene.target = &mesh;
+    Closings known(scene, 0.5);
+    const std::vector<const Closing*> few = known.along(0, allowed_tools(scene), {});
+    ASSERT_EQ(few.size(), 2U) << "the wider flat end adds nothing";
+    const auto height_of = [&](const SurfaceMap& map) {
+        const Vec3 q = apply_inverse(map.frame_in_setup, Vec3{0, 30, 0});
+        return apply(map.frame_in_setup, Vec3{q.x, q.y, map.at(q.x, q.y)}).z - ridge;
+    };
+    EXPECT_NEAR(height_of(few[0]->map), 10, 0.5);
+    EXPECT_NEAR(height_of(few[1]->map), 1 + 11 / std::sin(std::numbers::pi / 4) - 11, 0.5);
+    EXPECT_NEAR(height_of(closing_of(scene, 0, wide, 0.5, {})), 15, 0.5);
 }
 
 TEST(Closings, WhereNothingIsInTheWayOfTheFinestToolItsOwnIsEnough) {
