@@ -71,19 +71,23 @@ constexpr const char* flag_table[] = {"ready for ticket",
                                       "block loaded",
                                       "rehearsal running"};
 
+}  // namespace
+
+std::span<const ResultCode> result_codes() {
+    return result_table;
+}
+
+namespace {
+
 const ResultCode& row_of(AckResult result) {
     static constexpr ResultCode unknown{none, "unknown result", "a result that the register map does not define"};
-    for (const ResultCode& one : result_table) {
+    for (const ResultCode& one : result_codes()) {
         if (one.result == result) return one;
     }
     return unknown;
 }
 
 }  // namespace
-
-std::span<const ResultCode> result_codes() {
-    return result_table;
-}
 
 std::span<const char* const> flag_names() {
     return flag_table;

@@ -9,29 +9,25 @@
 #include "base/error.h"
 
 namespace qchopper {
-namespace {
 
-const std::vector<ActRow>& rows() {
+std::span<const ActRow> all_choices() {
     static const std::vector<ActRow> all{
-        {Act::consent, "consent", {"no", "yes"}, "answers the question that is asked, or waits for the next one"},
-        {Act::policy, "consent", {"auto", "ask", "never"}, "how questions are answered from now on"},
-        {Act::door, "door", {"closed", "open"}, "the door of the cell"},
-        {Act::e_stop, "estop", {"release", "press"}, "the emergency stop"},
-        {Act::panel, "panel", {"remote", "local"}, "who controls the cell"},
-        {Act::block, "block", {"unknown", "none", "fresh", "used", "moved"}, "the block on the table"},
-        {Act::tool, "tool", {"ok", "broken"}, "the tool in the spindle"},
-        {Act::power,
-         "power",
-         {"off", "on", "store-lost", "store-back", "all-back"},
-         "the controller's power; the last three: on, with an empty store, an older one, an older one and its marks"},
-        {Act::clock, "clock", {"real", "virtual"}, "a virtual clock goes on by `wait` only"},
-        {Act::wait_for,
-         "wait for",
-         {"question", "prepared", "running", "held", "finished", "aborted", "idle"},
-         "until it is so"},
+        {Act::consent, "consent", {"no", "yes"}},  // answers the question that is asked, or waits for the next one
+        {Act::policy, "consent", {"auto", "ask", "never"}},  // from now on
+        {Act::door, "door", {"closed", "open"}},
+        {Act::e_stop, "estop", {"release", "press"}},
+        {Act::panel, "panel", {"remote", "local"}},
+        {Act::block, "block", {"unknown", "none", "fresh", "used", "moved"}},
+        {Act::tool, "tool", {"ok", "broken"}},
+        // The last three: on, with an empty store, an older one, an older one and its marks.
+        {Act::power, "power", {"off", "on", "store-lost", "store-back", "all-back"}},
+        {Act::clock, "clock", {"real", "virtual"}},  // a virtual one goes on by `wait` only
+        {Act::wait_for, "wait for", {"question", "prepared", "running", "held", "finished", "aborted", "idle"}},
     };
     return all;
 }
+
+namespace {
 
 [[noreturn]] void refuse(const std::string& name, std::size_t line, const std::string& why) {
     throw InputError(InputFault::config, name + ":" + std::to_string(line) + ": " + why,
@@ -117,7 +113,7 @@ ScriptLine choice_from(Words& words, const std::string& first, const std::string
     const bool is_yes = first == "y" || first == "yes";
     if (is_yes || first == "n" || first == "no") return {line, Act::consent, is_yes ? 1U : 0U, 0, {}};
     std::string known;
-    for (const ActRow& row : rows()) {
+    for (const ActRow& row : all_choices()) {
         if (row.word != first) continue;
         for (std::size_t i = 0; i < row.choices.size(); ++i) {
             if (words.takes(row.choices[i])) return {line, row.act, i, 0, {}};
@@ -142,10 +138,6 @@ ScriptLine line_from(Words& words, const std::string& name, std::size_t line) {
 }
 
 }  // namespace
-
-std::span<const ActRow> all_choices() {
-    return rows();
-}
 
 std::optional<ScriptLine> parse_script_line(std::string_view text, std::size_t line, const std::string& name) {
     Words words(words_of(text), name, line);

@@ -41,7 +41,6 @@ struct ActRow {
     Act act;
     const char* word;
     std::vector<const char*> choices;
-    const char* meaning;
 };
 std::span<const ActRow> all_choices();
 
