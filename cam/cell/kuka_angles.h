@@ -1,6 +1,7 @@
 // The angles A, B, C by which KUKA's controllers give a rotation: R = Rz(a) Ry(b) Rx(c).
 //
-// Radians. Pure functions. From angles to a pose and back to the same rotation, to 1e-9 (tests/cam/cell/arm_test.cpp).
+// Radians. Pure functions. From angles to a pose and back to the same rotation, to 1e-9
+// (tests/cam/cell/kuka_angles_test.cpp).
 
 #pragma once
 

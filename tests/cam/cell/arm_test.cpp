@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "cam/cell/kuka_angles.h"
-#include "tests/cam/cell/arms.h"
+#include "tests/cam/cell/arm_poses.h"
 #include "tests/reference/cam/cell/joint_speeds.h"
 #include "tests/reference/cam/cell/turns_within.h"
 
@@ -19,23 +18,6 @@ constexpr double pi = std::numbers::pi;
 constexpr double full_turn = 2 * pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-std::vector<NamedArm> all_arms() {
-    std::vector<NamedArm> arms = real_arms();
-    arms.push_back(offset_arm());
-    return arms;
-}
-
-Vec3 column(const Pose& pose, int i) {
-    return {pose.row[0][i], pose.row[1][i], pose.row[2][i]};
-}
-
-// Angle of the rotation from one pose to another, for small angles.
-double rotation_between(const Pose& a, const Pose& b) {
-    double square = 0;
-    for (int i = 0; i < 3; ++i) square += dot(column(a, i) - column(b, i), column(a, i) - column(b, i));
-    return std::sqrt(square / 2);
-}
 
 double distance_modulo_turns(const Joints& a, const Joints& b) {
     double largest = 0;
@@ -49,19 +31,6 @@ bool is_among(const ArmAnswers& answers, const Joints& joints, double tolerance)
     return std::any_of(answers.begin(), answers.end(), [&](const ArmAnswer& answer) {
         return distance_modulo_turns(answer.joints, joints) <= tolerance;
     });
-}
-
-Joints random_joints(const NamedArm& arm, std::mt19937& random) {
-    Joints joints{};
-    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        joints[axis] = std::uniform_real_distribution(arm.ranges[axis].min, arm.ranges[axis].max)(random);
-    }
-    return joints;
-}
-
-void expect_near(Vec3 a, Vec3 b, double tolerance, const std::string& what) {
-    EXPECT_LE(norm(a - b), tolerance) << what << ": " << a.x << " " << a.y << " " << a.z << " is not " << b.x << " "
-                                      << b.y << " " << b.z;
 }
 
 // Largest errors over the answers of many poses.
@@ -396,174 +365,6 @@ TEST(Arm, SingularityMeasuresAreWhatTheyAreCalled) {
     EXPECT_FALSE(answers.empty());
     for (const ArmAnswer& answer : answers) {
         EXPECT_NEAR(singularity(offset, answer.joints).shoulder, std::sqrt(500.0 * 500 - 120 * 120), 1e-6);
-    }
-}
-
-TEST(Arm, JacobianIsTheDerivativeOfTheFlange) {
-    constexpr double h = 1e-5;
-    for (const NamedArm& arm : all_arms()) {
-        std::mt19937 random(10);
-        for (int i = 0; i < 200; ++i) {
-            const Joints joints = random_joints(arm, random);
-            const Jacobian rows = jacobian(arm.geometry, joints);
-            const Pose here = forward(arm.geometry, joints);
-            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-                Joints before = joints;
-                Joints after = joints;
-                before[axis] -= h;
-                after[axis] += h;
-                const Pose a = forward(arm.geometry, before);
-                const Pose b = forward(arm.geometry, after);
-                Vec3 angular;  // sum of c x dc / 2 over the columns c of a rotation that changes by w x c
-                for (int k = 0; k < 3; ++k) {
-                    angular = angular + (0.5 / (2 * h)) * cross(column(here, k), column(b, k) - column(a, k));
-                }
-                const Vec3 linear = (1 / (2 * h)) * (b.shift - a.shift);
-                expect_near({rows[0][axis], rows[1][axis], rows[2][axis]}, linear, 1e-5, arm.name);
-                expect_near({rows[3][axis], rows[4][axis], rows[5][axis]}, angular, 1e-8, arm.name);
-            }
-        }
-    }
-}
-
-TEST(Arm, JointSpeedsMoveTheToolTip) {
-    constexpr double h = 1e-4;  // s
-    const Vec3 tip_in_flange{30, -20, 550};
-    const CartesianVelocity wanted{{40, -25, 10}, {0.05, 0.02, -0.04}};
-    for (const NamedArm& arm : all_arms()) {
-        std::mt19937 random(11);
-        int moved = 0;
-        for (int i = 0; i < 500; ++i) {
-            const Joints joints = random_joints(arm, random);
-            const ArmSingularity nearness = singularity(arm.geometry, joints);
-            if (nearness.wrist < 0.15 || nearness.shoulder < 150 || nearness.elbow < 0.02) continue;
-            const auto speeds = joint_speeds(arm.geometry, joints, tip_in_flange, wanted);
-            ASSERT_TRUE(speeds) << arm.name;
-            Joints before = joints;
-            Joints after = joints;
-            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-                before[axis] -= h * (*speeds)[axis];
-                after[axis] += h * (*speeds)[axis];
-            }
-            const Pose a = forward(arm.geometry, before);
-            const Pose b = forward(arm.geometry, after);
-            const Pose here = forward(arm.geometry, joints);
-            expect_near((1 / (2 * h)) * (apply(b, tip_in_flange) - apply(a, tip_in_flange)), wanted.linear, 1e-3,
-                        arm.name);
-            for (int k = 0; k < 3; ++k) {
-                expect_near((1 / (2 * h)) * (column(b, k) - column(a, k)), cross(wanted.angular, column(here, k)), 1e-5,
-                            arm.name);
-            }
-            ++moved;
-        }
-        EXPECT_GT(moved, 100) << arm.name;
-    }
-}
-
-TEST(Arm, LargestJointSpeedsAreThoseOfAllDirections) {
-    for (const NamedArm& arm : real_arms()) {
-        std::mt19937 random(12);
-        for (int i = 0; i < 50; ++i) {
-            const Joints joints = random_joints(arm, random);
-            const auto largest = largest_joint_speeds(arm.geometry, joints);
-            const ArmSingularity nearness = singularity(arm.geometry, joints);
-            if (nearness.wrist < 0.15 || nearness.shoulder < 150 || nearness.elbow < 0.02) continue;
-            ASSERT_TRUE(largest);
-            Joints found{};
-            for (int k = 0; k < 2000; ++k) {
-                const double z = 1 - (2.0 * k + 1) / 2000;
-                const double a = k * 2.399963;
-                const Vec3 unit{std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z};
-                const auto speeds = joint_speeds(arm.geometry, joints, {20, 30, 500}, {unit, {}});
-                ASSERT_TRUE(speeds);
-                for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-                    found[axis] = std::max(found[axis], std::abs((*speeds)[axis]));
-                    EXPECT_LE(std::abs((*speeds)[axis]), (*largest)[axis] * (1 + 1e-9));
-                }
-            }
-            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) EXPECT_GE(found[axis], 0.99 * (*largest)[axis]);
-        }
-        EXPECT_FALSE(largest_joint_speeds(arm.geometry, Joints{NAN}));
-    }
-}
-
-TEST(Arm, NoJointSpeedsAtASingularity) {
-    for (const NamedArm& arm : real_arms()) {
-        const ArmGeometry& g = arm.geometry;
-        EXPECT_FALSE(joint_speeds(g, radians({10, -70, 60, 30, 0, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
-        EXPECT_TRUE(joint_speeds(g, radians({10, -70, 60, 30, 0.01, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
-        EXPECT_FALSE(largest_joint_speeds(g, radians({10, -70, 60, 30, 0, 20}))) << arm.name;
-        EXPECT_TRUE(largest_joint_speeds(g, radians({10, -70, 60, 30, 0.01, 20}))) << arm.name;
-        const double stretched = g.c2 + std::hypot(g.a2, g.c3);
-        for (const ArmAnswer& answer : inverse(g, {Pose{}.row, {g.a1 + stretched + 1e-8, 0, g.c1 + g.c4}})) {
-            EXPECT_FALSE(joint_speeds(g, answer.joints, {}, {{1, 2, 3}, {}})) << arm.name;
-            EXPECT_FALSE(largest_joint_speeds(g, answer.joints)) << arm.name;
-        }
-    }
-}
-
-TEST(Arm, JointSpeedsDoNotDependOnTheDirectionsOfTheAxes) {
-    // Axes along x, y and z of the base: the Jacobian has zeros on its diagonal.
-    const NamedArm arm = kr_120_r2500_pro();
-    const auto speeds = joint_speeds(arm.geometry, radians({0, -90, 90, 0, 90, 0}), {}, {{0, 135, 0}, {0, 0, 0.1}});
-    ASSERT_TRUE(speeds);
-    EXPECT_TRUE(largest_joint_speeds(arm.geometry, radians({0, -90, 90, 0, 90, 0})));
-    // The flange at x = 1350 mm turns about axis 1, whose joint counts the other way.
-    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) EXPECT_NEAR((*speeds)[axis], axis == 0 ? -0.1 : 0, 1e-12);
-}
-
-// Largest difference of two sets of angles, whole turns aside.
-double difference(const KukaAngles& a, const KukaAngles& b) {
-    return std::max({std::abs(std::remainder(a.a - b.a, full_turn)), std::abs(std::remainder(a.b - b.b, full_turn)),
-                     std::abs(std::remainder(a.c - b.c, full_turn))});
-}
-
-TEST(KukaAngles, AreThoseOfTheTables) {
-    const ArmGeometry arm = kr_120_r2500_pro().geometry;
-    const KukaAngles ahead = kuka_angles(forward(arm, radians({0, -90, 90, 0, 0, 0})));
-    EXPECT_LT(difference(ahead, {0, pi / 2, 0}), 1e-9);
-    EXPECT_EQ(ahead.c, 0);
-    EXPECT_LT(difference(kuka_angles(forward(arm, radians({0, -90, 90, 0, 90, 0}))), {pi, 0, pi}), 1e-9);
-}
-
-TEST(KukaAngles, AreTurnsAboutZThenYThenX) {
-    EXPECT_LT(norm(rotate(pose_of({pi / 2, 0, 0}, {}), {1, 0, 0}) - Vec3{0, 1, 0}), 1e-15);
-    EXPECT_LT(norm(rotate(pose_of({0, pi / 2, 0}, {}), {1, 0, 0}) - Vec3{0, 0, -1}), 1e-15);
-    EXPECT_LT(norm(rotate(pose_of({0, 0, pi / 2}, {}), {0, 1, 0}) - Vec3{0, 0, 1}), 1e-15);
-    const Pose chained = pose_of({0.3, 0, 0}, {}) * pose_of({0, -0.4, 0}, {}) * pose_of({0, 0, 0.5}, {});
-    EXPECT_LT(rotation_between(chained, pose_of({0.3, -0.4, 0.5}, {})), 1e-15);
-    EXPECT_EQ(pose_of({1, 2, 3}, {4, 5, 6}).shift, (Vec3{4, 5, 6}));
-}
-
-TEST(KukaAngles, GiveTheRotationBack) {
-    std::mt19937 random(12);
-    std::uniform_real_distribution<double> turn(-pi, pi);
-    std::uniform_real_distribution<double> half(-pi / 2, pi / 2);
-    for (int i = 0; i < 10'000; ++i) {
-        const KukaAngles angles{turn(random), half(random), turn(random)};
-        const Pose pose = pose_of(angles, {});
-        const KukaAngles read = kuka_angles(pose);
-        EXPECT_LT(difference(read, angles), 1e-9);
-        EXPECT_LT(rotation_between(pose_of(read, {}), pose), 1e-12);
-    }
-}
-
-TEST(KukaAngles, LeaveOutCWhereBIsARightAngle) {
-    for (const double side : {1.0, -1.0}) {
-        for (const double distance : {0.0, 1e-12, 0.9e-9, 1.1e-9, 1e-8, 1e-6}) {
-            const Pose pose = pose_of({0.7, side * (pi / 2 - distance), 0.2}, {});
-            const KukaAngles read = kuka_angles(pose);
-            EXPECT_LT(rotation_between(pose_of(read, {}), pose), 1.5e-9) << distance;
-            const Pose other = pose_of({0.4, 0.5, -0.6}, {});
-            const Pose rounded = inverse(other) * (other * pose);
-            EXPECT_LT(rotation_between(pose_of(kuka_angles(rounded), {}), rounded), 1.5e-9) << distance;
-            if (distance < 1e-9) {
-                EXPECT_EQ(read.c, 0) << distance;
-                EXPECT_NEAR(read.a, 0.7 - side * 0.2, 2e-9) << distance;
-            } else {
-                EXPECT_LT(difference(read, {0.7, side * (pi / 2 - distance), 0.2}), 1e-5) << distance;
-            }
-        }
     }
 }
 

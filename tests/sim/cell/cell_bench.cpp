@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/cell/panel.h"
+
 namespace qchopper::bench {
 
 Bench::Bench(CellLimits limits, CellMemory memory) {
@@ -56,6 +58,11 @@ void Bench::pass(std::int64_t ms) {
         now.unix_ms += 10;
         pass_time(cell, now, hooks);
     }
+}
+
+void Bench::restart(PowerCut::Store store) {
+    const CellMemory kept = saved.empty() ? CellMemory{} : saved.back();
+    cell = power_on(cell, memory_after(store, kept), 43, now, hooks);
 }
 
 void Bench::to_idle() {

@@ -25,7 +25,8 @@ struct Bench {
     AckResult claim(std::uint32_t who = owner, std::uint32_t whose_secret = secret, std::uint32_t code = 0);
     void write_ticket(const WireTicket& ticket);
     void heartbeat();
-    void pass(std::int64_t ms);  // in steps of 10 ms, without heartbeats
+    void pass(std::int64_t ms);                                    // in steps of 10 ms, without heartbeats
+    void restart(PowerCut::Store store = PowerCut::Store::stays);  // cuts the power now
 
     // The ways to a stored, verified, prepared, running job.
     void to_idle();

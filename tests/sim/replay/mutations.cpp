@@ -1,179 +1,17 @@
-// Lines are taken apart by their first word; components of {...} by their names.
+// One function per subject, on the changes of program_text.h. O(characters) for each mutation.
 
 #include "tests/sim/replay/mutations.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <tuple>
 
-#include "base/text.h"
+#include "tests/sim/replay/program_text.h"
 
 namespace qchopper {
 namespace {
 
-using Lines = std::vector<std::string>;
-using Change = std::function<bool(Lines&)>;  // whether anything was changed
-
-Lines lines_of(const std::string& text) {
-    Lines lines;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find("\r\n", at), text.size());
-        lines.push_back(text.substr(at, end - at));
-        at = end + 2;
-    }
-    return lines;
-}
-
-std::string text_of(const Lines& lines) {
-    std::string text;
-    for (const std::string& line : lines) text += line + "\r\n";
-    return text;
-}
-
-std::string lower(std::string text) {
-    for (char& c : text) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return text;
-}
-
-bool begins(const std::string& line, const std::string& word) {
-    return lower(line).compare(0, word.size(), word) == 0;
-}
-
-bool is_lin(const std::string& line) {
-    return begins(line, "lin ");
-}
-
-std::string stem_of(const ProgramFile& file) {
-    return lower(file.name.substr(0, file.name.find('.')));
-}
-
-bool is_source(const ProgramFile& file) {
-    return lower(file.name).ends_with(".src");
-}
-
-// The main program is the one that initialises.
-bool is_main(const ProgramFile& file) {
-    return lower(file.text).find("#initmov") != std::string::npos;
-}
-
-std::size_t next_chunk(const ProgramFiles& files, std::size_t from = 0) {
-    while (from < files.size() && (!is_source(files[from]) || is_main(files[from]))) ++from;
-    return from;
-}
-
-// Where the number of a component begins and ends; npos if it is not there.
-std::pair<std::size_t, std::size_t> number_at(const std::string& line, const std::string& component) {
-    for (const char before : {'{', ','}) {
-        const std::size_t at = line.find(before + component + " ");
-        if (at == std::string::npos) continue;
-        const std::size_t begin = at + component.size() + 2;
-        return {begin, line.find_first_of(",}", begin)};
-    }
-    return {std::string::npos, std::string::npos};
-}
-
-bool change_number(std::string& line, const std::string& component, const std::function<double(double)>& f) {
-    const auto [begin, end] = number_at(line, component);
-    if (begin == std::string::npos || end == std::string::npos) return false;
-    const std::string before = line.substr(begin, end - begin);
-    const std::size_t point = before.find('.');
-    const int decimals = point == std::string::npos ? 0 : static_cast<int>(before.size() - point - 1);
-    const std::string after = fixed(f(std::strtod(before.c_str(), nullptr)), decimals);
-    line.replace(begin, end - begin, after);
-    return after != before;
-}
-
-// Changes all sources, one after the other.
-Mutation everywhere(const std::string& name, const Change& change) {
-    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
-                ProgramFiles changed = files;
-                bool is_changed = false;
-                for (ProgramFile& file : changed) {
-                    if (!is_source(file)) continue;
-                    Lines lines = lines_of(file.text);
-                    if (change(lines)) is_changed = true;
-                    file.text = text_of(lines);
-                }
-                if (!is_changed) return std::nullopt;
-                return changed;
-            }};
-}
-
-// Changes the first chunk in which there is a place.
-Mutation in_one_chunk(const std::string& name, const Change& change) {
-    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
-                for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) {
-                    ProgramFiles changed = files;
-                    Lines lines = lines_of(files[i].text);
-                    if (!change(lines)) continue;
-                    changed[i].text = text_of(lines);
-                    return changed;
-                }
-                return std::nullopt;
-            }};
-}
-
-Change each(const std::string& word, const std::function<bool(std::string&)>& change) {
-    return [word, change](Lines& lines) {
-        bool is_changed = false;
-        for (std::string& line : lines) {
-            if (begins(line, word) && change(line)) is_changed = true;
-        }
-        return is_changed;
-    };
-}
-
-Change each_component(const std::string& word, const std::vector<std::string>& components,
-                      const std::function<double(double)>& f) {
-    return each(word, [components, f](std::string& line) {
-        bool is_changed = false;
-        for (const std::string& component : components) is_changed |= change_number(line, component, f);
-        return is_changed;
-    });
-}
-
-// The value behind the equals sign.
-Change each_value(const std::string& word, const std::function<double(double)>& f) {
-    return each(word, [f](std::string& line) {
-        const std::size_t at = line.find('=');
-        if (at == std::string::npos) return false;
-        const double value = std::strtod(line.c_str() + at + 1, nullptr);
-        line = line.substr(0, at) + "= " + fixed(f(value), 6);
-        return true;
-    });
-}
-
-Change without(const std::string& word, const std::string& ending = {}) {
-    return [word, ending](Lines& lines) {
-        const std::size_t before = lines.size();
-        std::erase_if(lines, [&](const std::string& line) {
-            return begins(line, word) && (ending.empty() || lower(line).ends_with(ending));
-        });
-        return lines.size() != before;
-    };
-}
-
-bool replace_first(std::string& text, std::size_t from, const std::string& what, const std::string& by) {
-    const std::size_t at = text.find(what, from);
-    if (at == std::string::npos) return false;
-    text.replace(at, what.size(), by);
-    return true;
-}
-
-std::vector<std::size_t> lin_places(const Lines& lines) {
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (is_lin(lines[i])) places.push_back(i);
-    }
-    return places;
-}
-
-double component_of(const std::string& line, const std::string& component) {
-    const auto [begin, end] = number_at(line, component);
-    return begin == std::string::npos ? 0 : std::strtod(line.c_str() + begin, nullptr);
-}
+using namespace program_text;
 
 Change shifted_point(const std::string& component, double by) {
     return [component, by](Lines& lines) {
@@ -254,34 +92,6 @@ bool swap_components(std::string& line, const std::string& a, const std::string&
     return true;
 }
 
-std::size_t find_main(const ProgramFiles& files) {
-    std::size_t at = 0;
-    while (at < files.size() && !(is_source(files[at]) && is_main(files[at]))) ++at;
-    return at;
-}
-
-// A change of the main program with the places of its calls of chunks.
-Mutation in_main(const std::string& name,
-                 const std::function<bool(ProgramFiles&, Lines&, std::vector<std::size_t>)>& change) {
-    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
-                ProgramFiles changed = files;
-                const std::size_t main = find_main(files);
-                if (main == files.size()) return std::nullopt;
-                Lines lines = lines_of(files[main].text);
-                std::vector<std::size_t> calls;
-                for (std::size_t i = 0; i < lines.size(); ++i) {
-                    for (const ProgramFile& file : files) {
-                        if (is_source(file) && begins(lines[i], stem_of(file) + "(")) calls.push_back(i);
-                    }
-                }
-                if (!change(changed, lines, calls)) return std::nullopt;
-                const auto at = std::find_if(changed.begin(), changed.end(),
-                                             [&](const ProgramFile& f) { return f.name == files[main].name; });
-                at->text = text_of(lines);
-                return changed;
-            }};
-}
-
 bool lose_chunk(ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
     if (calls.size() < 2) return false;
     const std::string stem = lower(lines[calls.back()].substr(0, lines[calls.back()].find('(')));
@@ -333,20 +143,6 @@ std::optional<ProgramFiles> exchange_directions(const ProgramFiles& files) {
         }
     }
     return std::nullopt;
-}
-
-Mutation of_files(const std::string& name, const std::function<std::optional<ProgramFiles>(const ProgramFiles&)>& f) {
-    return {name, f};
-}
-
-// Of one chunk its text as a whole.
-Mutation of_text(const std::string& name, const std::function<bool(std::string&)>& change) {
-    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
-                ProgramFiles changed = files;
-                const std::size_t at = next_chunk(files);
-                if (at == files.size() || !change(changed[at].text)) return std::nullopt;
-                return changed;
-            }};
 }
 
 void add_geometry(std::vector<Mutation>& all) {
@@ -442,47 +238,6 @@ void add_speeds(std::vector<Mutation>& all) {
     for (const char* word : {"$acc.cp", "$vel.ori2", "$vel_axis[3]", "$acc_axis[6]", "$apo.cdis"}) {
         all.push_back(in_one_chunk(std::string(word) + "_not_stated_in_a_chunk", without(word)));
     }
-}
-
-// Changes of one line: the last one of the main program, or the first one of the last chunk, that begins with a word.
-Change lose(const std::string& word, bool is_last) {
-    return [word, is_last](Lines& lines) {
-        std::vector<std::size_t> places;
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            if (begins(lines[i], word)) places.push_back(i);
-        }
-        if (places.empty()) return false;
-        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(is_last ? places.back() : places.front()));
-        return true;
-    };
-}
-
-// In the middle of the moves.
-Change insert(const std::string& line) {
-    return [line](Lines& lines) {
-        const std::vector<std::size_t> places = lin_places(lines);
-        if (places.size() < 6) return false;
-        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(places[places.size() / 2]), line);
-        return true;
-    };
-}
-
-// The last chunk.
-Mutation in_last_chunk(const std::string& name, const Change& change) {
-    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
-                std::size_t last = files.size();
-                for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) last = i;
-                if (last == files.size()) return std::nullopt;
-                ProgramFiles changed = files;
-                Lines lines = lines_of(files[last].text);
-                if (!change(lines)) return std::nullopt;
-                changed[last].text = text_of(lines);
-                return changed;
-            }};
-}
-
-Mutation in_main_lines(const std::string& name, const Change& change) {
-    return in_main(name, [change](ProgramFiles&, Lines& lines, const auto&) { return change(lines); });
 }
 
 // In the ready cells output 1 is the spindle's, output 2 that of extraction.
