@@ -71,6 +71,20 @@ TEST(ImportedScan, FormatDoesNotMatter) {
     EXPECT_NEAR(volume_mm3(from_stl.mesh) / volume_mm3(from_ply.mesh), 1, 1e-6);
 }
 
+// As far as 100,000 km from the origin of the file, whatever its unit.
+TEST(ImportedScan, TooFarFromItsOriginIsSoInTrueSize) {
+    const double metre = 1000;
+    const auto refusal_at = [&](double x, double mm_per_unit, double scale) {
+        const TriangleMesh box = shapes::moved(shapes::box({0, 0, 0}, {1024, 1024, 1024}), {x, 0, 0});
+        return refusal([&] { imported_from(box, {mm_per_unit, scale}); });
+    };
+    EXPECT_NE(refusal_at(2e8, metre, 1).find("100 000 km"), std::string::npos) << "200,000 km in metres";
+    EXPECT_NE(refusal_at(-2e8, metre, 1).find("100 000 km"), std::string::npos);
+    const TriangleMesh in_mm = shapes::moved(shapes::box({0, 0, 0}, {1024, 1024, 1024}), {2e8, 0, 0});
+    EXPECT_NO_THROW(imported_from(in_mm, {1, 1})) << "200 km";
+    EXPECT_NE(refusal_at(2e8, 1, metre).find("100 000 km"), std::string::npos) << "the scale counts";
+}
+
 TEST(ImportedScan, UnitsAndScaleEnlarge) {
     const TriangleMesh box = shapes::box({1, 1, 1}, {2, 3, 4});
     const ImportedScan inches = imported_from(box, {mm_per(unit_named("in")), 1});
