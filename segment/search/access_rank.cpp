@@ -220,8 +220,10 @@ class AccessRanking {
                    scan_area_mm2(piece_);
         }
         if (!plane.evaluation) return never;
-        const std::optional<Terms> t = terms(*plane.evaluation, counted_others(), settings_.objectives, counted_scan());
-        return t ? t->total : never;
+        const Objectives& objectives = settings_.objectives;
+        const std::optional<Terms> t = terms(*plane.evaluation, counted_others(), objectives, counted_scan());
+        if (!t || (plane.stage == TermStage::whole && is_forbidden(*t, objectives))) return never;
+        return t->total;
     }
 
     void evaluate_best() {

@@ -107,6 +107,30 @@ TEST(AccessRank, WithConnectorAndSeamTheBestPlaneIsThatOfAllOfThemToo) {
     EXPECT_NE(held, all.end());
 }
 
+// The cheapest planes are forbidden: as cheap as they are, they say nothing of what the best allowed one costs.
+TEST(AccessRank, ForbiddenPlanesComeOnlyWhenNoOtherIsLeft) {
+    const Segmentation segmentation = sampled(bone(Specimen::femur));
+    SearchSettings settings = carving();
+    Objectives& o = settings.objectives;
+    o.weights.fragility = 1e-6;
+    o.fragility_form = FragilityForm::binary;
+    o.fragility_distance = 20;
+    o.forbidden = {"fragility"};
+    const std::vector<Ranked> all =
+        candidates_among(rank_all(segmentation, settings), segmentation.pieces[0], settings);
+    const auto first_out =
+        std::find_if(all.begin(), all.end(), [&](const Ranked& r) { return is_forbidden(r.terms, o); });
+    ASSERT_NE(first_out, all.begin());
+    ASSERT_NE(first_out, all.end());
+    EXPECT_LT(first_out->terms.total, all.front().terms.total) << "a forbidden plane costs least";
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    std::vector<Ranked> best = rank_by_access(segmentation, 0, settings, cache, {});
+    std::erase_if(best, [](const Ranked& r) { return r.normal_index == refined_index; });
+    const auto allowed = std::min<std::size_t>(min_best_planes, static_cast<std::size_t>(first_out - all.begin()));
+    ASSERT_GE(best.size(), allowed);
+    for (std::size_t i = 0; i < allowed; ++i) EXPECT_EQ(best[i].plane, all[i].plane) << i;
+}
+
 TEST(AccessRank, FewPlanesAreEvaluated) {
     const Segmentation segmentation = sampled(bone(Specimen::femur));
     const SearchSettings settings = carving();
