@@ -41,7 +41,7 @@ void fields(V& v, T& other) {
     v("foam_mm3", other.foam_mm3, not_negative);
     v("rest_material_mm3", other.rest_material_mm3, not_negative);
     v("block_mm", other.block);
-    v("orientations", other.orientations);
+    v("orientations", other.directions);
 }
 
 template <class V, Of<HalfSpace> T>
