@@ -62,7 +62,7 @@ ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMes
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto corners = corners_of(mesh, t);
         const bool is_low = std::all_of(corners.begin(), corners.end(), [](Vec3 p) { return std::abs(p.z) <= 1e-3; });
-        scene.is_base.push_back(is_low && area_vector(mesh, t).z < 0);
+        scene.is_unmilled.push_back(is_low && area_vector(mesh, t).z < 0);
     }
     return scene;
 }

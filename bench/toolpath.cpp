@@ -98,8 +98,7 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
     const HeightField map = piece_height_field(setup, mesh, 0, {cell, -6, 6});
     const HeightField tip = cl_surface(map, tool);
     const HeightField closing = remaining_surface(tip, tool);
-    const FinishingRegion region =
-        RestMaterial(mesh, std::nullopt).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
+    const FinishingRegion region = RestMaterial(mesh, Setup()).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
     const double ready = process_cpu_s();
     std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
     const double end = process_cpu_s();

@@ -41,13 +41,14 @@ PieceJob job_of(const JobOrder& order) {
     job.verdict = read_verdict(order.file);
     job.unreachable_share = read.setup.access.unreachable_share();
     job.max_unreachable = read.max_unreachable;
+    job.is_unreachable = is_unreachable(read.setup, read.max_unreachable);
     if (const std::optional<Workholding>& workholding = read.setup.workholding; workholding && !workholding->passes()) {
         job.holding_problem = workholding_problem(*workholding) + "; " + workholding_remedy(*workholding);
     }
     return job;
 }
 
-// None if prepare wrote no job for the piece, because it does not fit.
+// None if prepare wrote no job for the piece, because it does not fit or the saw alone makes it.
 std::vector<PieceJob> jobs_of_piece(const std::filesystem::path& folder, const Project& project,
                                     const std::string& piece, const Cell& cell) {
     const std::vector<WrittenJob> written = written_jobs_of(project, piece);
@@ -167,9 +168,10 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
         std::vector<PieceJob> jobs = jobs_of_piece(folder, project, record.name, found.cell);
         std::move(jobs.begin(), jobs.end(), std::back_inserter(found.jobs));
         if (jobs.empty() && piece) {  // without it the pieces that do not fit are left out
-            throw InputError(InputFault::missing, "piece " + *piece + " has no job" + (is_finished ? "" : " yet"),
-                             is_finished ? "it does not fit the cell; see the table that prepare printed"
-                                         : "wait until prepare has written it");
+            throw InputError(
+                InputFault::missing, "piece " + *piece + " has no job" + (is_finished ? "" : " yet"),
+                is_finished ? "it does not fit the cell, or the saw alone makes it; see the table that prepare printed"
+                            : "wait until prepare has written it");
         }
     }
     if (found.jobs.empty()) {
@@ -184,7 +186,7 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
 std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs) {
     std::vector<std::string> sentences;
     for (const PieceJob& job : jobs) {
-        if (!job.is_unreachable()) continue;
+        if (!job.is_unreachable) continue;
         sentences.push_back("piece " + job.piece + ": the tool does not reach " +
                             fixed(100 * job.unreachable_share, 2) + " % of its surface, and the limit is " +
                             fixed(100 * job.max_unreachable, 2) + " %");

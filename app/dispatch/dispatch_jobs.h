@@ -29,8 +29,8 @@ struct PieceJob {
     std::optional<JobVerdict> verdict;  // the one beside it
     double unreachable_share = 0;       // of the surface
     double max_unreachable = 0;         // the limit of the job
+    bool is_unreachable = false;        // more is out of reach than may be
     std::string holding_problem = {};   // with what to do about it; empty: it is held, or that was not checked
-    bool is_unreachable() const { return unreachable_share > max_unreachable; }
 };
 
 struct ProjectJobs {

@@ -75,8 +75,9 @@ void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell
     const std::map<std::string, std::string> texts = texts_of(job);
     const auto stock = job.files.find("stock.bin");
     const Bytes* before = stock != job.files.end() ? &stock->second : nullptr;
-    JobProof proof =
-        prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, before, holes_of(job.caps)}, context);
+    JobProof proof = prove(
+        {cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, before, holes_of(job.caps), job.half_spaces},
+        context);
     if (stock_left != nullptr) *stock_left = std::move(proof.stock_left);
     verdict.figures = std::move(proof.figures);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());

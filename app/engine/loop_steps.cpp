@@ -260,7 +260,11 @@ PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, 
     set_up(pieces, *setups(), observer, context);
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version,
                                  observer.on_job, context);
-    write_sheets(folder_, project_, context);
+    for (const PieceJoint& joint : prepared.joints.joints) {
+        prepared.joints.faces.push_back(joint_faces(joint, prepared.pieces[joint.below].piece_setup.setup(),
+                                                    prepared.pieces[joint.above].piece_setup.setup()));
+    }
+    write_sheets(folder_, project_, segmentation(), *setups(), prepared.joints.joints, context);
     write_pictures(folder_, pieces, *setups(), context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
     const StageTimer stage(context, "project saved");

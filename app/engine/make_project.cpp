@@ -45,6 +45,7 @@ std::optional<Vec3> room_in_largest_block(const Cell& cell) {
 // The settings of a project in a cell: its tilt, its largest block and its first dowels.
 SearchSettings settings_in(const Cell& cell, const SearchSettings& before, const std::string& preset_name) {
     SearchSettings settings = with_cell(before, preset_name, max_tilt_deg(cell), room_in_largest_block(cell));
+    settings.candidates.along_caps = is_any_sawn(cell);
     if (settings.objectives.needs_connector() && !cell.dowels.empty()) {
         const DowelSize& dowel = cell.dowels.front();
         ConnectorOptions& connector = settings.objectives.connector;

@@ -34,7 +34,8 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
 }  // namespace
 
 bool PreparedProject::all_fit() const {
-    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+    return std::all_of(pieces.begin(), pieces.end(),
+                       [](const PieceReport& p) { return !p.job.empty() || p.is_only_sawn; });
 }
 
 bool PreparedProject::has_programs() const {
@@ -269,7 +270,7 @@ std::optional<PieceReport> OpenProject::write_job_again(std::size_t piece, const
         piece_joints(segmentation().pieces, joint_settings(&setups()->cell()), context_);
     PieceReport report =
         write_job(folder_, project_, segmentation(), piece, *setups(), joints, program_version, context_);
-    write_sheets(folder_, project_, context_);
+    write_sheets(folder_, project_, segmentation(), *setups(), joints, context_);
     save_project(folder_, project_);
     return report;
 }

@@ -9,6 +9,7 @@
 
 #include "app/engine/review_cuts.h"
 #include "segment/cut/nudge.h"
+#include "segment/search/candidates/cap_frame.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/rank_piece.h"
 
@@ -29,7 +30,8 @@ std::vector<Ranked> through_the_middle(const Segmentation& segmentation, std::si
                                        const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
     const Piece& target = segmentation.pieces[piece];
     const std::vector<NoCutTriangle> no_cut = no_cut_triangles(*target.mesh, settings.candidates.no_cut);
-    const std::vector<Vec3> axes = candidate_normals(cache.box(target), CandidateNormals::box);
+    const std::vector<Vec3> axes =
+        candidate_normals(box_for_cuts(target, cache.box(target), settings.candidates), CandidateNormals::box);
     std::vector<Ranked> planes;
     for (std::size_t n = 0; n < axes.size(); ++n) {
         const std::vector<double> offsets = candidate_offsets(extent(*target.mesh, axes[n]), settings.candidates);
@@ -82,7 +84,7 @@ TriedPlane judged(const Ranked& plane, const std::vector<Piece>& pieces, double 
         const SurfaceAccess& access = piece_setup.setup().access;
         tried.fits = tried.fits && piece_setup.stock_fit.fits() && setups.fits(part);
         tried.unreachable_mm2 += access.unreachable_mm2();
-        if (access.unreachable_share() > limit) tried.above_limit_mm2 += access.unreachable_mm2();
+        if (access.exceeds(limit)) tried.above_limit_mm2 += access.unreachable_mm2();
     }
     return tried;
 }

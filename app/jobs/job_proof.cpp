@@ -18,6 +18,7 @@
 #include "sim/program/chunk_summary.h"
 #include "sim/program/krl_line.h"
 #include "sim/program/krl_reader.h"
+#include "sim/replay/flush_check.h"
 #include "sim/replay/machine_walk.h"
 #include "sim/replay/reachable.h"
 #include "sim/replay/replay.h"
@@ -81,17 +82,38 @@ void compare_chunks(const ProofInput& input, const ParsedProgram& program, JobPr
     }
 }
 
-// Triangles of the plane of the base that face down. A piece without a base has none.
-std::vector<bool> base_of(const Setup& setup, const TriangleMesh& mesh) {
-    constexpr double flat = 1e-3;  // mm; piece.stl is single precision
-    std::vector<bool> is_base;
-    if (!setup.base) return is_base;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<Vec3, 3> corners = corners_of(mesh, t);
-        const bool is_low = std::all_of(corners.begin(), corners.end(), [](Vec3 p) { return std::abs(p.z) <= flat; });
-        is_base.push_back(is_low && area_vector(mesh, t).z < 0);
+// A point of its plane, and the normal out of the half-space.
+std::pair<Vec3, Vec3> border_of(const HalfSpace& half_space, const Pose& pose) {
+    const Plane& plane = half_space.plane;
+    return {apply(pose, plane.offset * plane.normal), rotate(pose, -half_space.up())};
+}
+
+// The caps of the piece but its base in setup coordinates, and which face of the block each is said to be.
+std::vector<SceneCap> caps_of(const ProofInput& input) {
+    std::vector<SceneCap> caps;
+    const Setup& setup = input.setup;
+    for (const HalfSpace& half_space : input.half_spaces) {
+        if (half_space.cut == setup.base) continue;
+        const auto [point, outward] = border_of(half_space, setup.piece_in_setup);
+        SceneCap cap{half_space.cut, point, outward, std::nullopt};
+        for (const FlushCap& flush : setup.flush_caps) {
+            if (flush.cut == half_space.cut) cap.face = static_cast<std::size_t>(flush.face);
+        }
+        caps.push_back(cap);
     }
-    return is_base;
+    return caps;
+}
+
+// What is not milled: the plane of the base, and caps that are said to be faces of the block.
+std::vector<bool> unmilled_of(const Setup& setup, const std::vector<SceneCap>& caps, const TriangleMesh& mesh) {
+    std::vector<bool> is_unmilled(mesh.triangles.size(), false);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        is_unmilled[t] = setup.base && is_in_plane(mesh, t, {}, {0, 0, -1});
+        for (const SceneCap& cap : caps) {
+            if (cap.face && is_in_plane(mesh, t, cap.point, cap.outward)) is_unmilled[t] = true;
+        }
+    }
+    return is_unmilled;
 }
 
 // Finishing is held against the cell file's scallop height; a program that claims another one was made for other
@@ -121,7 +143,9 @@ ReplayScene scene_of(const ProofInput& input) {
     scene.block = setup.block_box();
     scene.spoil = setup.spoil;
     scene.target = &input.mesh;
-    scene.is_base = base_of(setup, input.mesh);
+    scene.caps = caps_of(input);
+    scene.flush_tolerance = input.cell.saw.flush_tolerance;
+    scene.is_unmilled = unmilled_of(setup, scene.caps, input.mesh);
     if (input.cell.machine) scene.scallop = input.cell.machine->program.scallop;
     const std::vector<std::size_t>& drilled = input.program.holes;
     for (const JobHole& hole : input.holes) {

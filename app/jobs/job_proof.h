@@ -25,6 +25,7 @@ struct ProofInput {
     const std::map<std::string, std::string>& texts;  // of all its files
     const Bytes* stock = nullptr;                     // stock.bin of a part but the first
     std::vector<JobHole> holes = {};                  // of all caps
+    std::vector<HalfSpace> half_spaces = {};          // of the piece, in its coordinates; empty: not known
     double replay_cell = 0.25;                        // mm; that of the stock
     // The figures of the chunks stand in the manifest, and are compared with what is read.
     bool is_stated = true;

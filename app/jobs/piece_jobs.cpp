@@ -20,6 +20,7 @@
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/envelope_document.h"
+#include "cam/job/glue_faces.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
@@ -43,13 +44,13 @@ namespace fs = std::filesystem;
 
 struct MadeJob {
     PieceReport report;
-    std::vector<WrittenJob> written;  // one per part; none of a piece that does not fit
+    std::vector<WrittenJob> written;  // one per part; none of a piece that does not fit or is only sawn
 };
 
 // Empty for a piece of which no more is out of reach than may be.
 std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& project, const Piece& piece,
                                      const SurfaceAccess& access, const Cell& cell) {
-    if (access.unreachable_share() <= max_unreachable(project, cell)) return {};
+    if (!access.exceeds(max_unreachable(project, cell))) return {};
     AdviceInput input;
     input.access = access;
     input.inside_share = inside_share(piece);
@@ -161,7 +162,8 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
     made.report.piece_setup.choice.states.clear();
     made.report.advice = advice_for(orders.folder, orders.project, piece, piece_setup.setup().access,
                                     with_tools(orders.cell, piece_setup.setup().tools));
-    if (!piece_setup.fits()) {
+    made.report.is_only_sawn = is_only_sawn(piece_setup.setup(), *piece.mesh);
+    if (made.report.is_only_sawn || !piece_setup.fits()) {
         remove_jobs(orders.folder, piece.name);
         return made;
     }

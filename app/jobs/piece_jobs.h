@@ -30,18 +30,19 @@ struct PieceReport {
     std::size_t faces = 0;
     double volume_mm3 = 0;
     PlacedSetup piece_setup;
-    std::filesystem::path job;              // empty: it does not fit the cell and has no job
+    std::filesystem::path job;              // empty: it has no job, because it does not fit the cell or is only sawn
     std::vector<AccessAdvice> advice = {};  // of a piece of which more is out of reach than may be
     std::string no_program_because = {};    // empty: its jobs hold robot programs
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it
     double length_mm = 0;
-    bool is_proven() const;  // every part is; false without a program
+    bool is_only_sawn = false;  // the saw alone makes it (cam/job/glue_faces.h)
+    bool is_proven() const;     // every part is; false without a program
 };
 
-// Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell, else removes them, and records
-// them in the project, which is not saved. `index` is that of the piece in the segmentation, `joints` are those of all
-// its pieces.
+// Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell and the saw alone does not make
+// it, else removes them, and records them in the project, which is not saved. `index` is that of the piece in the
+// segmentation, `joints` are those of all its pieces.
 PieceReport write_job(const std::filesystem::path& folder, Project& project, const Segmentation& segmentation,
                       std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
                       const std::string& program_version, const Context& context);

@@ -237,7 +237,8 @@ PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, 
                          proven.input.program,
                          proven.input.texts,
                          &proven.input.stock,
-                         holes_of(job_caps)};
+                         holes_of(job_caps),
+                         piece.half_spaces};
         proof.is_stated = false;
         proven.proof = prove(proof, context);
         stock = std::move(proven.proof.stock_left);

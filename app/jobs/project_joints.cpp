@@ -15,6 +15,11 @@ JointSettings joint_settings(const Cell* cell) {
     return settings;
 }
 
+JointFaces joint_faces(const PieceJoint& joint, const Setup& below, const Setup& above) {
+    const int sawn = (below.is_unmilled(joint.cut) ? 1 : 0) + (above.is_unmilled(joint.cut) ? 1 : 0);
+    return sawn == 2 ? JointFaces::sawn_sawn : sawn == 1 ? JointFaces::sawn_milled : JointFaces::milled_milled;
+}
+
 ProjectJoints project_joints(const Segmentation& segmentation, const Cell* cell, const Context& context) {
     StageTimer stage(context, "dowels placed");
     ProjectJoints made;
@@ -23,6 +28,8 @@ ProjectJoints project_joints(const Segmentation& segmentation, const Cell* cell,
     for (const PieceJoint& joint : made.joints) {
         made.faults.push_back(describe_fault(joint, segmentation.pieces, made.joints));
     }
+    made.chain = longest_chain(made.pieces.size(), made.joints);
+    if (cell != nullptr) made.accuracy = cell->saw.accuracy;
     stage.next("assembly ordered");
     made.assembly = assembly_of(segmentation, made.joints, context);
     stage.next("seams measured");

@@ -1,19 +1,26 @@
-// The setup sheets of a project's jobs as one document, sheets.html in its folder.
+// The setup sheets of a project's jobs as one document, sheets.html in its folder, and how its blocks are sawn:
+// saw-list.html and saw-list.json, where at least one is.
 //
-// Never stale, as the jobs are: it is removed when one of them changes and written when they are
+// Never stale, as the jobs are: they are removed when one of them changes and written when those are
 // (tests/app/cli/sheets_test.cpp).
 
 #pragma once
 
 #include <filesystem>
+#include <span>
 
+#include "app/jobs/setups.h"
 #include "app/store/project.h"
 #include "base/context.h"
+#include "segment/joint/piece_joints.h"
+#include "segment/search/segmentation.h"
 
 namespace qchopper {
 
-// Reads the recorded jobs, one at a time. Throws what read_job, parse_job, read_verdict and write_file throw.
-void write_sheets(const std::filesystem::path& folder, const Project& project, const Context& context);
+// Reads the recorded jobs, one at a time; `joints` are those of all pieces, for those that have no job because the saw
+// alone makes them. Throws what read_job, parse_job, read_verdict, write_file and Setups::placed throw.
+void write_sheets(const std::filesystem::path& folder, const Project& project, const Segmentation& segmentation,
+                  Setups& setups, std::span<const PieceJoint> joints, const Context& context);
 
 void remove_sheets(const std::filesystem::path& folder);
 

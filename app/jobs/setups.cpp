@@ -43,7 +43,7 @@ const T& once(std::optional<T>& known, const Make& make) {
 }
 
 UnreachableSurface unreachable_surface(const Setup& setup) {
-    return {setup.access.unreachable_mm2(), setup.access.unreachable_share()};
+    return {setup.access.unreachable_mm2(), setup.access.unreachable_share(), setup.access.allowed_mm2};
 }
 
 }  // namespace

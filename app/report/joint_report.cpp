@@ -58,7 +58,26 @@ std::string step_line(const AssemblyStep& step, std::size_t number, const Projec
     return line + ".";
 }
 
-Json joint_json(const PieceJoint& joint, const std::string& fault, const ProjectJoints& of) {
+// "12 sawn-sawn, 3 sawn-milled, 0 milled-milled"
+std::string faces_line(const ProjectJoints& of) {
+    constexpr auto names = names_of(JointFaces{});
+    std::string line;
+    for (const auto& [faces, name] : names.rows) {
+        const auto count = std::count(of.faces.begin(), of.faces.end(), faces);
+        line += (line.empty() ? "Joints: " : ", ") + std::to_string(count) + " " + name;
+    }
+    return line + "; a base that is parted counts as sawn.";
+}
+
+std::string chain_line(const ProjectJoints& of) {
+    return "Longest chain of joints: " + std::to_string(of.chain.joints()) + ", " + name_list(of.chain.pieces, of) +
+           "; its ends are off by " + fixed(of.chain.largest_deviation(of.accuracy), 1) + " mm at most, usually " +
+           fixed(of.chain.usual_deviation(of.accuracy), 1) + " mm, where each joint is off by " +
+           significant(of.accuracy, 3) + " mm (saw.accuracy).";
+}
+
+Json joint_json(std::size_t j, const ProjectJoints& of) {
+    const PieceJoint& joint = of.joints[j];
     const auto dowel_json = [](const Dowel& dowel) {
         return Json{
             {"diameter_mm", dowel.size.diameter}, {"depth_mm", dowel.size.depth}, {"point_mm", json_of(dowel.point)}};
@@ -68,9 +87,10 @@ Json joint_json(const PieceJoint& joint, const std::string& fault, const Project
             {"above", of.pieces[joint.above]},
             {"area_mm2", joint.contact.area_mm2},
             {"regions", joint.contact.regions.size()},
+            {"made_by", of.faces.empty() ? Json() : Json(names_of(of.faces[j])(of.faces[j]))},
             {"dowels", list_of(joint.dowels, dowel_json)},
             {"fault", fault_word(joint.fault)},
-            {"note", fault}};
+            {"note", of.faults[j]}};
 }
 
 }  // namespace
@@ -78,10 +98,13 @@ Json joint_json(const PieceJoint& joint, const std::string& fault, const Project
 std::vector<std::string> joint_lines(const ProjectJoints& of) {
     if (of.joints.empty()) return {};
     std::vector<std::vector<std::string>> rows{{"joint", "cut", "cm2", "dowels mm"}};
+    if (!of.faces.empty()) rows.front().emplace_back("faces");
     std::size_t sound = 0;
-    for (const PieceJoint& joint : of.joints) {
+    for (std::size_t j = 0; j < of.joints.size(); ++j) {
+        const PieceJoint& joint = of.joints[j];
         rows.push_back({of.pieces[joint.below] + "-" + of.pieces[joint.above], std::to_string(joint.cut),
                         fixed(joint.contact.area_mm2 / 100, 1), dowel_words(joint)});
+        if (!of.faces.empty()) rows.back().emplace_back(names_of(of.faces[j])(of.faces[j]));
         sound += joint.fault == JointFault::none ? 1 : 0;
     }
     std::vector<std::string> lines = columns(rows);
@@ -91,6 +114,8 @@ std::vector<std::string> joint_lines(const ProjectJoints& of) {
     for (const std::string& fault : of.faults) {
         if (!fault.empty()) lines.push_back(fault + ".");
     }
+    if (!of.faces.empty()) lines.push_back(faces_line(of));
+    lines.push_back(chain_line(of));
     lines.push_back("Assembly in " + counted(of.assembly.steps.size(), "step") + ":");
     for (std::size_t i = 0; i < of.assembly.steps.size(); ++i) {
         lines.push_back(step_line(of.assembly.steps[i], i + 1, of));
@@ -100,8 +125,13 @@ std::vector<std::string> joint_lines(const ProjectJoints& of) {
 
 Json joints_json(const ProjectJoints& of) {
     Json joints = Json::array();
-    for (std::size_t j = 0; j < of.joints.size(); ++j) joints.push_back(joint_json(of.joints[j], of.faults[j], of));
-    return {{"joints", joints}, {"seam_mm", of.seam.mm}, {"visible_seam_mm", of.seam.visible_mm}};
+    for (std::size_t j = 0; j < of.joints.size(); ++j) joints.push_back(joint_json(j, of));
+    const Json chain{{"chain_joints", of.chain.joints()},
+                     {"way", name_json(of.chain.pieces, of)},
+                     {"largest_mm", of.chain.largest_deviation(of.accuracy)},
+                     {"usual_mm", of.chain.usual_deviation(of.accuracy)}};
+    return {
+        {"joints", joints}, {"seam_mm", of.seam.mm}, {"visible_seam_mm", of.seam.visible_mm}, {"longest_chain", chain}};
 }
 
 Json assembly_json(const ProjectJoints& of) {

@@ -12,10 +12,10 @@
 
 namespace qchopper {
 
-// A row per joint, the length of the seams, and a line per step.
+// A row per joint, the length of the seams, the longest chain, and a line per step.
 std::vector<std::string> joint_lines(const ProjectJoints& joints);
 
-// {joints, seam_mm, visible_seam_mm}
+// {joints, seam_mm, visible_seam_mm, longest_chain}
 nlohmann::ordered_json joints_json(const ProjectJoints& joints);
 // A list of steps.
 nlohmann::ordered_json assembly_json(const ProjectJoints& joints);

@@ -17,6 +17,7 @@
 #include "app/store/project_lines.h"
 #include "base/printable.h"
 #include "base/text.h"
+#include "cam/job/job.h"
 
 namespace qchopper {
 namespace {
@@ -63,7 +64,20 @@ std::vector<std::string> missing_programs(const PreparedProject& prepared) {
     return sentences;
 }
 
-Json piece_json(const PieceReport& piece, const Cell& cell) {
+// "sawn": the saw alone makes it, and it has no job; "none": it has none because it does not fit.
+const char* state_word(const PieceReport& piece, double max_unreachable) {
+    if (piece.is_only_sawn) return "sawn";
+    if (piece.job.empty()) return "none";
+    return is_unreachable(piece.piece_setup.setup(), max_unreachable) ? "unreachable" : "ready";
+}
+
+const char* fits_word(const PieceReport& piece) {
+    if (piece.is_only_sawn) return "sawn";
+    return piece.job.empty() ? "no" : "yes";
+}
+
+Json piece_json(const PieceReport& piece, const PreparedProject& of) {
+    const Cell& cell = of.cell;
     const Setup& s = piece.piece_setup.setup();
     Json margins;
     for (const Margin& m : piece.piece_setup.stock_fit.margins) margins[m.name] = m.mm;
@@ -72,7 +86,8 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
               {"volume_mm3", piece.volume_mm3},
               {"box_mm", json_of(s.box.size())}};
     add_setup(json, s, cell);
-    json.update({{"fits", piece.piece_setup.fits()},
+    json.update({{"piece_state", state_word(piece, of.max_unreachable)},
+                 {"fits", piece.piece_setup.fits()},
                  {"margins_mm", margins},
                  {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
                  {"out_of_reach", list_of(piece.advice, advice_json)},
@@ -86,13 +101,14 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
 std::vector<std::string> warnings(const PreparedProject& prepared) {
     std::vector<std::string> text;
     for (const PieceReport& p : prepared.pieces) {
+        if (p.is_only_sawn) continue;
         const double share = p.piece_setup.setup().access.unreachable_share();
         if (p.job.empty()) {
             text.push_back((p.piece_setup.stock_fit.fits()
                                 ? describe_reachability(p.name, p.piece_setup.machine_reachability)
                                 : describe_stock_fit(p.name, p.piece_setup.stock_fit)) +
                            "; it gets no job");
-        } else if (share > prepared.max_unreachable) {
+        } else if (p.piece_setup.setup().access.exceeds(prepared.max_unreachable)) {
             text.push_back(out_of_reach_sentence(p.name, share, prepared.max_unreachable) + advice_words(p.advice) +
                            "; see qchopper setup " + shell_word(prepared.folder) + " --piece " + p.name +
                            ", or dispatch it with --accept-unreachable");
@@ -116,11 +132,11 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.piece_setup.setup();
         const bool is_mapped = s.access.method == AccessMethod::mapped;
-        rows.push_back(
-            {p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
-             prepared.cell.stock[s.block.stock].name, base_word(s), std::to_string(s.access.orientations.size()),
-             share_word(s.access.unreachable_share()), is_mapped ? describe_volume(s.access.foam_mm3) : "-",
-             is_mapped ? fixed(s.access.foam_depth_mm, 0) : "-", workholding_word(s), p.job.empty() ? "no" : "yes"});
+        rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
+                        prepared.cell.stock[s.block.stock].name, base_word(s),
+                        std::to_string(s.access.orientations.size()), share_word(s.access.unreachable_share()),
+                        is_mapped ? describe_volume(s.access.foam_mm3) : "-",
+                        is_mapped ? fixed(s.access.foam_depth_mm, 0) : "-", workholding_word(s), fits_word(p)});
         if (prepared.cell.machine) rows.back().push_back(margin_word(p.piece_setup.machine_reachability));
         if (prepared.has_programs()) rows.back().push_back(program_word(p));
     }
@@ -128,7 +144,8 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     if (prepared.has_programs()) rows.front().emplace_back("program");
     std::vector<std::string> lines = columns(rows);
     lines.emplace_back(
-        "unreachable: of the surface without the base, in the tool orientations of the setup; foam: what they leave, "
+        "unreachable: of the surface without base and sawn caps, in the tool orientations of the setup; foam: what "
+        "they leave, "
         "and "
         "its depth; workholding: whether table, foam and base hold the piece while it is carved.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
@@ -141,7 +158,13 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PieceReport& p) { return !p.job.empty(); });
+    const auto only_sawn = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
+                                         [](const PieceReport& p) { return p.is_only_sawn; });
     const std::string folder = prepared.folder.string();
+    if (only_sawn > 0) {
+        lines.push_back(counted(static_cast<std::size_t>(only_sawn), "piece") +
+                        " made by the saw alone, without a job: see " + folder + "/saw-list.html.");
+    }
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
                     folder + "/pictures.");
@@ -151,7 +174,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
 
 Document document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
-    const auto piece_in_cell = [&](const PieceReport& piece) { return piece_json(piece, prepared.cell); };
+    const auto piece_in_cell = [&](const PieceReport& piece) { return piece_json(piece, prepared); };
     Json json{{"schema", prepare_schema},
               {"project", prepared.folder.string()},
               {"scan",

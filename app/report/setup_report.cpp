@@ -84,7 +84,7 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
         rows.push_back(row_of(setup, answer.cell, &setup != &chosen || p.piece_setup.machine_reachability.holds()));
     }
     for (const std::string& line : columns(rows)) lines.push_back(line);
-    lines.emplace_back("Shares are of the area without the base; ~ marks those judged on samples alone.");
+    lines.emplace_back("Shares are of the area without base and sawn caps; ~ marks those judged on samples alone.");
     lines.emplace_back("Tool orientations of the setup in force, in degrees:");
     add_directions(chosen, lines);
     const SurfaceAccess& access = chosen.access;
@@ -162,10 +162,10 @@ std::string out_of_reach_sentence(const std::string& piece, double share, double
 std::vector<std::string> warnings(const SetupAnswer& answer) {
     std::vector<std::string> sentences;
     for (const PieceSetups& p : answer.pieces) {
-        const double share = p.piece_setup.setup().access.unreachable_share();
-        if (share <= answer.max_unreachable) continue;
+        const SurfaceAccess& access = p.piece_setup.setup().access;
+        if (!access.exceeds(answer.max_unreachable)) continue;
         const bool is_ordered = p.order && (p.order->base || p.order->max_directions);
-        sentences.push_back(out_of_reach_sentence(p.piece, share, answer.max_unreachable) +
+        sentences.push_back(out_of_reach_sentence(p.piece, access.unreachable_share(), answer.max_unreachable) +
                             (is_ordered ? "; its setup was decided: qchopper setup " + shell_word(answer.folder) +
                                               " --piece " + p.piece + " --auto lets the program choose again"
                                         : std::string()));
@@ -188,7 +188,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
             rows.push_back(std::move(row));
         }
         for (const std::string& line : columns(rows)) text.push_back(line);
-        text.emplace_back("Shares are of the area without the base.");
+        text.emplace_back("Shares are of the area without base and sawn caps.");
     }
     if (answer.ignored) text.push_back(ignored_line(*answer.ignored) + "; it counts in no share.");
     if (const std::string note = arm_note(answer.cell); !note.empty()) text.push_back(note);

@@ -149,6 +149,7 @@ void fields(V& v, T& settings) {
     v.maybe("normals", c.normals);
     v.maybe("offset_step_mm", c.offset_step_mm);
     v.maybe("takes_symmetry", c.takes_symmetry);
+    v.maybe("along_caps", c.along_caps);
     v.maybe("symmetry", c.symmetry);
     v.maybe("planes", c.given);
 }

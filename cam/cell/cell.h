@@ -71,6 +71,14 @@ struct Margins {
     bool operator==(const Margins&) const = default;
 };
 
+// Faces of blocks that a saw makes in the planes of caps (cam/setup/layout/flush_caps.h). The accuracy is that of a
+// band saw or a hot wire of the usual class; it is assumed.
+struct Saw {
+    double accuracy = 0.5;         // mm, by which a sawn face may be off its plane; reported only
+    double flush_tolerance = 0.1;  // mm, largest distance of a point of a cap from the face of the block that it is
+    bool operator==(const Saw&) const = default;
+};
+
 // What holds a block on the table, and against what (cam/setup/workholding.h).
 //
 // The defaults are assumed. Force: a chip 20 mm deep at 0.2 mm a tooth, 4 mm2, times 5 N/mm2, which is the specific
@@ -167,6 +175,7 @@ struct Cell {
     Table table;
     std::vector<Stock> stock;
     Margins margins;
+    Saw saw;
     double clearance = 20;  // height above the block in which the tool travels
     Tool tool;              // the first one
     Link link;
@@ -181,6 +190,11 @@ struct Cell {
 };
 
 double bending_strength(const Stock& stock);  // N/mm2
+
+// Whether some block of the stock may be sawn, so that caps can be faces of blocks.
+inline bool is_any_sawn(const Cell& cell) {
+    return std::any_of(cell.stock.begin(), cell.stock.end(), [](const Stock& stock) { return stock.is_sawn; });
+}
 
 const char* to_word(Dialect dialect);  // "krl", "rapid", "ngc"
 

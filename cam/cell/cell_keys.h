@@ -38,7 +38,7 @@ inline constexpr TableKeys root{
     "", {"version",    "name",  "id",         "clearance",      "max_tilt_deg", "max_unreachable",
          "margin",     "reach", "table",      "rotary_table",   "robot",        "spindle",
          "extraction", "tool",  "stock",      "obstacle",       "start",        "program",
-         "link",       "dowel", "dowel_play", "load_tolerance", "holding"}};
+         "link",       "dowel", "dowel_play", "load_tolerance", "holding",      "saw"}};
 inline constexpr TableKeys reach{"reach", {"min", "max", "source", "sources"}};
 inline constexpr TableKeys table{"table", {"centre", "size", "height", "source", "sources"}};
 inline constexpr TableKeys rotary_table{
@@ -85,6 +85,7 @@ inline constexpr TableKeys stock{"stock",
                                  {"size", "kerf", "bending_strength", "source", "sources", "name", "material", "sawn"}};
 inline constexpr TableKeys obstacle{"obstacle", {"min", "max", "source", "sources", "name"}};
 inline constexpr TableKeys margin{"margin", {"sides", "top", "spoil"}};
+inline constexpr TableKeys saw{"saw", {"accuracy", "flush_tolerance", "source", "sources"}};
 inline constexpr TableKeys holding{"holding", {"cutting_force", "strength", "max_slenderness", "source", "sources"}};
 inline constexpr TableKeys start{"start", {"joints_deg", "tip"}};
 inline constexpr TableKeys program{
@@ -95,11 +96,15 @@ inline constexpr TableKeys load_tolerance{"load_tolerance", {"mass_kg", "centre_
 inline constexpr TableKeys link{"link", {"to", "drop"}};
 inline constexpr TableKeys dowel{"dowel", {"diameter", "depth", "wall"}};
 
-inline constexpr auto all = std::to_array<TableKeys>(
-    {root,    reach,      table,         rotary_table,     robot,       base,       cable,          capsule,
-     spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on,  extraction_off,
-     tool,    stock,      obstacle,      margin,           start,       program,    load_tolerance, link,
-     dowel,   holding});
+inline constexpr auto all = std::to_array<TableKeys>({root,           reach,          table,
+                                                      rotary_table,   robot,          base,
+                                                      cable,          capsule,        spindle,
+                                                      spindle_on,     spindle_speed,  spindle_at_speed,
+                                                      spindle_off,    extraction,     extraction_on,
+                                                      extraction_off, tool,           stock,
+                                                      obstacle,       margin,         start,
+                                                      program,        load_tolerance, link,
+                                                      dowel,          holding,        saw});
 
 // Of a file that describes neither robot nor spindle these have no meaning.
 inline constexpr auto of_machines =

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 
@@ -15,6 +18,27 @@ std::vector<std::uint16_t> numbers_of(const std::vector<CuttingTool>& tools) {
     numbers.reserve(tools.size());
     for (const CuttingTool& tool : tools) numbers.push_back(tool.number);
     return numbers;
+}
+
+using IsBetter = std::function<bool(const CuttingTool&, const CuttingTool&)>;
+using IsMeant = std::function<bool(const CuttingTool&)>;
+
+// The best of the tools that are meant, the first of equal ones.
+std::optional<std::size_t> best(const std::vector<CuttingTool>& tools, const IsMeant& is_meant,
+                                const IsBetter& is_better) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (is_meant(tools[i]) && (!found || is_better(tools[i], tools[*found]))) found = i;
+    }
+    return found;
+}
+
+bool is_ball(const CuttingTool& tool) {
+    return tool.shape == ToolShape::ball;
+}
+
+bool is_larger(const CuttingTool& a, const CuttingTool& b) {
+    return a.diameter > b.diameter;
 }
 
 }  // namespace
@@ -67,6 +91,32 @@ Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers) {
     }
     allowed.tool = job_tool(tools.front());
     return allowed;
+}
+
+std::size_t roughing_tool(const std::vector<CuttingTool>& tools) {
+    const auto found = best(
+        tools, [](const CuttingTool& t) { return is_ball(t) || t.shape == ToolShape::flat; },
+        [](const CuttingTool& a, const CuttingTool& b) {
+            return std::pair(a.diameter, a.shape == ToolShape::flat) >
+                   std::pair(b.diameter, b.shape == ToolShape::flat);
+        });
+    if (!found)
+        throw InputError(InputFault::config, "the cell has no flat or ball-ended tool", "add one to the cell file");
+    return *found;
+}
+
+std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughing_diameter) {
+    const IsMeant is_smaller = [&](const CuttingTool& t) { return is_ball(t) && t.diameter < roughing_diameter; };
+    auto found = best(tools, is_smaller, is_larger);
+    if (!found) found = best(tools, is_ball, is_larger);
+    if (!found) throw InputError(InputFault::config, "the cell has no ball-ended tool", "add one to the cell file");
+    return *found;
+}
+
+std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter) {
+    return best(
+        tools, [&](const CuttingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
+        [](const CuttingTool& a, const CuttingTool& b) { return a.diameter < b.diameter; });
 }
 
 }  // namespace qchopper

@@ -1,8 +1,10 @@
-// The tools of a cell as tickets name them, and a cell of which only some may be used.
+// The tools of a cell: which rough and finish, as tickets name them, and a cell of which only some may be used.
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,14 @@ std::vector<Tool> tools_of(const Cell& cell);
 // (tests/cam/cell/allowed_tools_test.cpp); `numbers` empty: as it is. Throws InputError (use) if the cell has no
 // machine, has no tool of a number, or if none of the tools is ball-ended, because others do not finish. O(tools).
 Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers);
+
+// Indices of the tools that a program uses where it is not told others; of equal ones the first. O(tools).
+// The flat or ball-ended one of the largest diameter, rather flat. Throws InputError (config) if there is none.
+std::size_t roughing_tool(const std::vector<CuttingTool>& tools);
+// The largest ball-ended one below a diameter, or else the largest. Throws InputError (config) if there is none.
+std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughing_diameter);
+// The smallest ball-ended one below a diameter, if there is one.
+std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter);
 
 // "tool 3", "tools 1, 2 and 4". Precondition: there is one.
 std::string describe_tools(const std::vector<std::uint16_t>& numbers);

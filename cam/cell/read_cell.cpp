@@ -64,6 +64,10 @@ Stock read_block(const TomlReader& reader, Origins& origins) {
     stock.is_sawn = reader.has("sawn") && reader.boolean("sawn");
     if (stock.is_sawn) {
         stock.kerf = reader.number("kerf", 0, 50);
+        if (stock.kerf >= std::min({stock.size.x, stock.size.y, stock.size.z})) {
+            reader.refuse("kerf", "leaves nothing of the block's smallest side",
+                          "give the width of the saw cut, or leave out sawn");
+        }
     } else if (reader.has("kerf")) {
         reader.refuse("kerf", "has no meaning for a block that is not sawn", "add sawn = true, or leave it out");
     }
@@ -179,6 +183,23 @@ Margins read_margins(const TomlReader& root, Origins& origins) {
     return margins;
 }
 
+// Its values have an origin only where some block may be sawn; elsewhere nothing depends on them.
+Saw read_saw(const TomlReader& root, const std::vector<Stock>& stock, Origins& origins) {
+    Saw saw;
+    const bool is_any_sawn = std::any_of(stock.begin(), stock.end(), [](const Stock& s) { return s.is_sawn; });
+    if (root.has("saw") && !is_any_sawn) {
+        root.refuse("saw", "has no meaning where no block may be sawn",
+                    "add sawn = true to a [[stock]], or leave it out");
+    }
+    const TomlReader reader = root.table_if_given("saw", keys_2::saw);
+    reader.number_if_given("accuracy", 0, 5, saw.accuracy);
+    reader.number_if_given("flush_tolerance", 0, 5, saw.flush_tolerance);
+    if (!is_any_sawn) return saw;
+    add_origins(reader, keys_2::saw, "saw", origins);
+    add_defaults(reader, keys_2::saw.with_origin(), "saw", origins);
+    return saw;
+}
+
 Holding read_holding(const TomlReader& root, Origins& origins) {
     Holding holding;
     const TomlReader reader = root.table_if_given("holding", keys_2::holding);
@@ -193,6 +214,7 @@ Holding read_holding(const TomlReader& root, Origins& origins) {
 // What holds of every piece: foam around it, and the height in which the tool travels.
 void read_room(const TomlReader& root, Cell& cell) {
     cell.margins = read_margins(root, cell.origins);
+    cell.saw = read_saw(root, cell.stock, cell.origins);
     root.number_if_given("clearance", 0, 1'000, cell.clearance);
     add_defaults(root, std::to_array<std::string_view>({"clearance"}), "", cell.origins);
 }

@@ -85,6 +85,7 @@ struct ReadJob {
     std::string block_name;                     // in the cell's list of stock
     Material material = Material::unspecified;  // of the block
     double margin = 0;                          // of foam around the piece
+    std::vector<double> foam_at_faces;          // by BlockFace; empty: no face is flush
     std::vector<HalfSpace> half_spaces;         // in piece coordinates
     std::vector<JobCap> caps;                   // that are joined to other pieces, by their cuts
     StockFit stock_fit;
@@ -106,7 +107,7 @@ struct ReadJob {
 // The state "unreachable": the tool leaves more of the surface than the limit allows, and dispatch asks for the
 // operator's word. Otherwise the state is "ready".
 inline bool is_unreachable(const Setup& setup, double max_unreachable) {
-    return setup.access.unreachable_share() > max_unreachable;
+    return setup.access.exceeds(max_unreachable);
 }
 
 }  // namespace qchopper

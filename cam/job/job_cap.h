@@ -49,6 +49,9 @@ struct DrawnCap {
     std::vector<std::vector<Point2>> outline;
     std::vector<Point2> names_at;  // one per joint: where the neighbour's name stands
     Point2 size;                   // of the rectangle around the outline
+    // Of a cap that is a sawn side of the block: the corners of that side. The template is laid along its edges,
+    // because the holes are drilled before the outline is milled.
+    std::vector<Point2> block_side = {};
 };
 
 // All holes in the order of their numbers.

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "base/text.h"
+#include "cam/job/glue_faces.h"
 #include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
@@ -38,10 +41,21 @@ Point2 middle_of(const FlatRegion& contact, const Plane& plane, const Pose& cap_
     return in_cap(cap_in_piece, 1 / count * sum);
 }
 
+// The side of the block in which a cap lies by its sawn face, at the side; nothing for other caps.
+std::optional<BlockFace> sawn_side(const Setup& setup, std::int32_t cut) {
+    for (const FlushCap& cap : setup.flush_caps) {
+        if (cap.cut == cut && cap.face != BlockFace::top) return cap.face;
+    }
+    return std::nullopt;
+}
+
 // Why no tool may come out along the cap's normal; empty: one may.
 std::string not_drilled_because(const HalfSpace& half_space, const Setup& setup, const Cell& cell) {
     constexpr double degree = std::numbers::pi / 180;
     if (setup.base && *setup.base == half_space.cut) return "its cap is the base, which lies on the table";
+    if (sawn_side(setup, half_space.cut)) {
+        return "its cap is a sawn side of the block: drill it before the block is carved";
+    }
     if (!cell.machine) return "the cell file describes no machine";
     const Vec3 out = rotate(setup.piece_in_setup, -half_space.up());
     const double tilt = std::acos(std::clamp(out.z, -1.0, 1.0));
@@ -79,6 +93,21 @@ void draw_outline(DrawnCap& drawn, const Piece& piece, const HalfSpace& half_spa
     }
 }
 
+// The corners of a side of the block, in the frame.
+std::vector<Point2> corners_of_side(const Setup& setup, BlockFace side, const Pose& cap_in_piece) {
+    const Box block = setup.block_box();
+    const int across = static_cast<int>(axis_of(side));
+    Vec3 at = is_at_max(side) ? block.max : block.min;
+    const Pose cap_in_setup = setup.piece_in_setup * cap_in_piece;
+    std::vector<Point2> corners;
+    for (const auto& [is_far, is_high] : {std::pair(false, false), {true, false}, {true, true}, {false, true}}) {
+        at[1 - across] = is_far ? block.max[1 - across] : block.min[1 - across];
+        at.z = is_high ? block.max.z : block.min.z;
+        corners.push_back(in_cap(cap_in_setup, at));
+    }
+    return corners;
+}
+
 }  // namespace
 
 std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, std::span<const PieceJoint> joints,
@@ -100,7 +129,11 @@ std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, 
             drawn.cap.joints.push_back(std::move(made));
             drawn.names_at.push_back(middle_of(joint.contact, joint.plane, frame));
         }
-        if (!drawn.cap.joints.empty()) caps.push_back(std::move(drawn));
+        if (drawn.cap.joints.empty()) continue;
+        if (const std::optional<BlockFace> side = sawn_side(setup, half_space.cut)) {
+            drawn.block_side = corners_of_side(setup, *side, drawn.cap.cap_in_piece);
+        }
+        caps.push_back(std::move(drawn));
     }
     std::sort(caps.begin(), caps.end(), [](const DrawnCap& a, const DrawnCap& b) { return a.cap.cut < b.cap.cut; });
     std::size_t number = 0;

@@ -18,8 +18,8 @@
 namespace qchopper {
 
 // The caps of piece number `index` that have joints, in the order of the cuts. A hole is for the hand if its
-// cap is the base or the tool may not lean so far; of the others no reason is given yet, and who drills them is decided
-// with the program (JobHole::by_hand).
+// cap is the base or a sawn side of the block, or the tool may not lean so far; of the others no reason is given yet,
+// and who drills them is decided with the program (JobHole::by_hand).
 std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, std::span<const PieceJoint> joints,
                               const Setup& setup, const Cell& cell);
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/json_fields.h"
 #include "cam/job/cap_document.h"
+#include "cam/job/glue_faces.h"
 #include "cam/job/program_document.h"
 #include "cam/job/setup_fields.h"
 #include "cam/setup/block_placement.h"
@@ -75,6 +76,14 @@ void fields(V& v, T& entry) {
     v("sha256", entry.sha256);
 }
 
+template <class V, Of<FlushCap> T>
+void fields(V& v, T& cap) {
+    v("cut", cap.cut);
+    v.check(cap.cut >= 0, "cut", "is no number of a cut");
+    v("face", cap.face);
+    v("area_mm2", cap.area_mm2, not_negative);
+}
+
 namespace {
 
 template <class V, class Job>
@@ -85,6 +94,8 @@ void setup_fields(V& v, Job& job) {
     v("piece_in_setup", setup.piece_in_setup);
     v("box", setup.box);
     v("spoil", setup.spoil, not_negative);
+    v.maybe("flush_caps", setup.flush_caps);
+    v.maybe("milled_caps_mm2", setup.milled_caps_mm2, 0, not_negative);
     v.converted("tools", setup.tools, null_if_empty<std::uint16_t>, [](const auto& tools) {
         if (tools && tools->empty()) throw wrong("tools", "is not a list of numbers of tools");
         return tools.value_or(std::vector<std::uint16_t>());
@@ -119,6 +130,7 @@ void stock_fields(V& v, Job& job) {
     v("offcuts_mm", block.offcuts);
     v("holds", block.holds);
     v("stock_margin", job.margin);
+    v.maybe("foam_at_faces_mm", job.foam_at_faces);
 }
 
 template <class V, class Job>
@@ -206,6 +218,7 @@ ReadJob described(const JobInput& input, std::vector<JobEntry> entries) {
     job.block_name = stock.name;
     job.material = stock.material;
     job.margin = input.cell.stock_margin();
+    if (!input.setup.flush_caps.empty()) job.foam_at_faces = foam_around(input.setup);
     job.half_spaces = input.piece.half_spaces;
     for (const DrawnCap& drawn : input.caps) job.caps.push_back(drawn.cap);
     job.stock_fit = input.stock_fit;
@@ -227,7 +240,38 @@ ReadJob described(const JobInput& input, std::vector<JobEntry> entries) {
     return job;
 }
 
+// Each flush cap is that of a half-space of the piece and not the base; foam stands at no flush face, and at the others
+// what block and piece say.
+void check_flush_caps(const ReadJob& job) {
+    constexpr double agreement = 1e-3;  // mm
+    const Setup& setup = job.setup;
+    for (const FlushCap& cap : setup.flush_caps) {
+        const auto is_its = [&](const HalfSpace& half_space) { return half_space.cut == cap.cut; };
+        if (cap.cut == setup.base || std::none_of(job.half_spaces.begin(), job.half_spaces.end(), is_its)) {
+            throw wrong("flush_caps", "name cut " + std::to_string(cap.cut) + ", which has no such cap of the piece");
+        }
+    }
+    const auto is_not_before = [](const FlushCap& cap, const FlushCap& next) { return cap.cut >= next.cut; };
+    if (std::ranges::adjacent_find(setup.flush_caps, is_not_before) != setup.flush_caps.end()) {
+        throw wrong("flush_caps", "are not in the order of their cuts");
+    }
+    if (setup.flush_caps.empty() != job.foam_at_faces.empty())
+        throw wrong("foam_at_faces_mm", "contradicts flush_caps");
+    if (setup.flush_caps.empty()) return;
+    if (!setup.base) throw wrong("flush_caps", "are given for a piece without a base");
+    const std::vector<double> foam = foam_around(setup);
+    const FlushFaces flush = setup.flush_faces();
+    if (job.foam_at_faces.size() != block_faces) throw wrong("foam_at_faces_mm", "is not one number for each face");
+    for (std::size_t f = 0; f < block_faces; ++f) {
+        const bool is_none = std::abs(foam[f]) <= 0.5 * flush_step + agreement;
+        if (std::abs(foam[f] - job.foam_at_faces[f]) > agreement || (flush[f] && !is_none)) {
+            throw wrong("foam_at_faces_mm", "contradicts block, box and flush_caps");
+        }
+    }
+}
+
 void check_parts(const ReadJob& job) {
+    check_flush_caps(job);
     check_caps(job.caps, job.setup.piece_in_setup);
     const std::string of_holes = fault_of_holes(job.program, job.caps);
     if (!of_holes.empty()) throw wrong("holes", of_holes);

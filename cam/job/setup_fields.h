@@ -6,13 +6,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/enum_names.h"
 #include "base/json_fields.h"
 #include "base/units.h"
 #include "cam/setup/block_placement.h"
+#include "cam/setup/placement/stated_angle.h"
 #include "cam/setup/setup.h"
 #include "cam/setup/surface_access.h"
 #include "cam/setup/workholding.h"
@@ -21,14 +21,6 @@ namespace qchopper {
 
 constexpr auto names_of(AccessMethod) {
     return EnumNames<AccessMethod, 2>{{{AccessMethod::sampled, "sampled"}, {AccessMethod::mapped, "mapped"}}};
-}
-
-// An angle as documents have it: to 1e-9 degrees where nothing but the last bit of the radians is lost by that, as of
-// whole degrees.
-inline double stated_degrees(double angle) {
-    const double exact = degrees(angle);
-    const double rounded = std::round(exact * 1e9) / 1e9;
-    return std::abs(radians(rounded) - angle) < 2e-15 ? rounded : exact;
 }
 
 // What the piece lies on: the keys of the base, in the object of whatever has them.
@@ -70,6 +62,7 @@ void fields(V& v, T& access) {
     v("foam_depth_mm", access.foam_depth_mm);
     v("rest_material_mm3", access.rest_material_mm3, not_negative);
     v.maybe("ignored_mm2", access.ignored_mm2, 0, not_negative);
+    v.maybe("allowed_mm2", access.allowed_mm2, 0, not_negative);
 }
 
 template <class V, Of<BlockPlacement> T>

@@ -11,6 +11,7 @@
 
 #include "cam/program/posture_search.h"
 #include "cam/program/sampled_path.h"
+#include "cam/setup/placement/stated_angle.h"
 
 namespace qchopper {
 namespace {
@@ -73,12 +74,12 @@ void turn_table(Drilling& drilling, std::size_t index, const Setup& setup, const
     std::size_t most = 0;
     double best = 0;
     for (const double angle : angles_for(setup, cell, orientation.tool_axis)) {
-        orientation.table_angle = angle;
+        orientation.table_angle = stated_angle(angle);
         std::size_t all = 0;
         const std::size_t held =
             count_reachable(drilling, setup.access.orientations.size() + index,
                             with_drill_orientations(setup, drilling.orientations), reachability, cell, all);
-        if (held > most || all == held) best = angle, most = held;
+        if (held > most || all == held) best = orientation.table_angle, most = held;
         if (held == all) break;
     }
     orientation.table_angle = best;

@@ -1,4 +1,6 @@
-// Every block of the list is tried, whole in two turns and sawn in six, O(stock).
+// Every block of the list is tried, whole in two turns and sawn in six, O(stock). Which faces are flush follows for
+// each from its length, because a block that is too short for the saw cuts may still hold the piece with foam around
+// it.
 
 #include "cam/setup/block.h"
 
@@ -8,6 +10,8 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+
+#include "cam/setup/saw_cuts.h"
 
 namespace qchopper {
 namespace {
@@ -19,12 +23,7 @@ constexpr double foam_for_a_saw_cut = 20e6;
 constexpr double rounding = 1e-6;      // mm
 constexpr double above_the_table = 2;  // mm of foam that no tool cuts, under the deepest one
 
-using Lengths = std::array<double, 3>;
-
-constexpr std::array<std::array<std::size_t, 3>, 6> orders{
-    {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 0, 1}, {1, 2, 0}, {2, 1, 0}}};
-
-Lengths lengths(Vec3 v) {
+AxisLengths lengths(Vec3 v) {
     return {v.x, v.y, v.z};
 }
 
@@ -39,30 +38,18 @@ double lack(Vec3 needed, Vec3 block) {
     return most <= rounding ? 0 : most;
 }
 
-// Up to three cuts, each through all that is left beside the block, in the given order of the axes.
-std::vector<Vec3> offcuts_of(Lengths stock, const Lengths& block, double kerf,
-                             const std::array<std::size_t, 3>& order) {
-    std::vector<Vec3> offcuts;
-    for (const std::size_t axis : order) {
-        if (stock[axis] == block[axis]) continue;
-        Lengths offcut = stock;
-        offcut[axis] = stock[axis] - block[axis] - kerf;
-        offcuts.push_back({offcut[0], offcut[1], offcut[2]});
-        stock[axis] = block[axis];
+void clear_along(FlushFaces& flush, std::size_t axis) {
+    if (axis == 2) {
+        flush[4] = false;
+    } else {
+        flush[2 * axis] = flush[2 * axis + 1] = false;
     }
-    const auto is_larger = [](Vec3 a, Vec3 b) { return volume(a) > volume(b); };
-    std::stable_sort(offcuts.begin(), offcuts.end(), is_larger);
-    return offcuts;
 }
 
-// Nothing is sawn off where the rest would be no wider than the saw cut.
-Lengths sawn_to(const Lengths& needed, const Lengths& stock, double kerf) {
-    Lengths size{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double whole = std::ceil(needed[axis] - rounding);
-        size[axis] = stock[axis] - whole > kerf ? whole : stock[axis];
-    }
-    return size;
+// Along an axis without a flush face nothing is sawn off where the rest would be no wider than the saw cut.
+SawnLength whole_mm(double needed, double stock, double kerf) {
+    const double whole = std::ceil(needed - rounding);
+    return stock - whole > kerf ? SawnLength{whole, 1} : SawnLength{stock, 0};
 }
 
 // Nothing sawn off is best, then the largest offcut.
@@ -71,18 +58,62 @@ bool leaves_more(const std::vector<Vec3>& offcuts, const std::vector<Vec3>& othe
     return volume(offcuts.front()) > volume(other.front());
 }
 
-// Nothing if no orientation of the stock holds the size.
-std::optional<StockBlock> sawn(const Stock& stock, Vec3 needed) {
-    std::optional<StockBlock> best;
-    for (const auto& turn : orders) {
-        const Lengths listed = lengths(stock.size);
-        const Lengths as_it_stands{listed[turn[0]], listed[turn[1]], listed[turn[2]]};
-        if (lack(needed, {as_it_stands[0], as_it_stands[1], as_it_stands[2]}) > 0) continue;
-        const Lengths size = sawn_to(lengths(needed), as_it_stands, stock.kerf);
-        for (const auto& order : orders) {
-            std::vector<Vec3> offcuts = offcuts_of(as_it_stands, size, stock.kerf, order);
-            if (best && !leaves_more(offcuts, best->offcuts)) continue;
-            best = StockBlock{0, false, true, {size[0], size[1], size[2]}, true, std::move(offcuts)};
+// What is sought, for all stock.
+struct Wanted {
+    Vec3 piece;
+    Margins margins;
+    std::array<double, block_faces> caps_mm2{};
+    FlushFaces flush() const {
+        FlushFaces faces{};
+        for (std::size_t f = 0; f < block_faces; ++f) faces[f] = caps_mm2[f] > 0;
+        return faces;
+    }
+    double milled_mm2(const FlushFaces& flush) const {
+        double area = 0;
+        for (std::size_t f = 0; f < block_faces; ++f) area += flush[f] ? 0 : caps_mm2[f];
+        return area;
+    }
+};
+
+// The size to which a stock as it stands is sawn, and in `flush` the faces that are flush then; nothing if it does not
+// hold the piece.
+std::optional<SawnSize> sawn_to(const Wanted& wanted, const AxisLengths& stock, double kerf, FlushFaces& flush) {
+    flush = wanted.flush();
+    SawnSize size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t faces = sawn_along(flush, axis);
+        const double needed = lengths(size_with_foam(wanted.piece, wanted.margins, flush))[axis];
+        const double sawn = flush_step * std::round(needed / flush_step);
+        if (faces > 0 && sawn + static_cast<double>(faces) * kerf <= stock[axis] + rounding) {
+            size[axis] = {sawn, static_cast<int>(faces)};
+            continue;
+        }
+        clear_along(flush, axis);
+        const double with_foam = lengths(size_with_foam(wanted.piece, wanted.margins, flush))[axis];
+        if (with_foam - stock[axis] > rounding) return std::nullopt;
+        size[axis] = whole_mm(with_foam, stock[axis], kerf);
+    }
+    return size;
+}
+
+// Nothing if no orientation of the stock holds the size. Of orientations that leave fewer caps to mill is that taken.
+std::optional<FlushBlock> sawn(const Stock& stock, const Wanted& wanted) {
+    std::optional<FlushBlock> best;
+    for (const auto& turn : axis_orders) {
+        const AxisLengths listed = lengths(stock.size);
+        const AxisLengths as_it_stands{listed[turn[0]], listed[turn[1]], listed[turn[2]]};
+        FlushFaces flush{};
+        const std::optional<SawnSize> size = sawn_to(wanted, as_it_stands, stock.kerf, flush);
+        if (!size) continue;
+        const double milled = wanted.milled_mm2(flush);
+        for (const auto& order : axis_orders) {
+            if (!is_sawn_last(order, flush)) continue;
+            std::vector<Vec3> offcuts = offcuts_of(cuts_in(order, as_it_stands, *size, stock.kerf));
+            if (best && milled > wanted.milled_mm2(best->flush)) continue;
+            if (best && milled == wanted.milled_mm2(best->flush) && !leaves_more(offcuts, best->block.offcuts))
+                continue;
+            const Vec3 sides{(*size)[0].length, (*size)[1].length, (*size)[2].length};
+            best = FlushBlock{{0, false, true, sides, true, std::move(offcuts)}, flush};
         }
     }
     return best;
@@ -103,33 +134,50 @@ Margins margins_of(const Cell& cell) {
     return margins;
 }
 
-StockBlock choose_block(const Cell& cell, Vec3 piece_size) {
+std::array<double, block_faces> foam_at_faces(const Margins& margins, const FlushFaces& flush) {
+    std::array<double, block_faces> foam{margins.sides, margins.sides, margins.sides, margins.sides, margins.top};
+    for (std::size_t f = 0; f < block_faces; ++f) foam[f] = flush[f] ? 0 : foam[f];
+    return foam;
+}
+
+Vec3 size_with_foam(Vec3 piece_size, const Margins& margins, const FlushFaces& flush) {
+    const std::array<double, block_faces> foam = foam_at_faces(margins, flush);
+    return piece_size + Vec3{foam[0] + foam[1], foam[2] + foam[3], foam[4] + margins.spoil};
+}
+
+FlushBlock choose_flush_block(const Cell& cell, Vec3 piece_size, const std::array<double, block_faces>& caps_mm2) {
     assert(!cell.stock.empty());
-    const Margins margins = margins_of(cell);
-    const Vec3 needed = piece_size + Vec3{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
-    StockBlock best;
+    const Wanted wanted{piece_size, margins_of(cell), caps_mm2};
+    const Vec3 needed = size_with_foam(piece_size, wanted.margins, {});
+    const double saw_cut = wanted.milled_mm2({}) > 0 ? 0 : foam_for_a_saw_cut;
+    FlushBlock best;
     std::optional<std::tuple<double, double, bool>> least;
-    const auto consider = [&](StockBlock block, double lacks) {
+    const auto consider = [&](StockBlock block, const FlushFaces& flush, double lacks) {
         const bool needs_saw = !block.offcuts.empty();
-        const std::tuple key(lacks, volume(block.size) + (needs_saw ? foam_for_a_saw_cut : 0), needs_saw);
+        const double milled = foam_per_milled_cap * wanted.milled_mm2(flush);
+        const std::tuple key(lacks, volume(block.size) + (needs_saw ? saw_cut : 0) + milled, needs_saw);
         if (least && !(key < *least)) return;
         least = key;
         block.holds = lacks == 0;
-        best = std::move(block);
+        best = {std::move(block), flush};
     };
     for (std::size_t i = 0; i < cell.stock.size(); ++i) {
-        std::optional<StockBlock> smaller = cell.stock[i].is_sawn ? sawn(cell.stock[i], needed) : std::nullopt;
-        if (!smaller || smaller->offcuts.empty()) {
+        std::optional<FlushBlock> smaller = cell.stock[i].is_sawn ? sawn(cell.stock[i], wanted) : std::nullopt;
+        if (!smaller || smaller->block.offcuts.empty()) {
             const Vec3 size = cell.stock[i].size;
-            consider({i, false, false, size, true, {}}, lack(needed, size));
+            consider({i, false, false, size, true, {}}, {}, lack(needed, size));
             const Vec3 turned{size.y, size.x, size.z};
-            consider({i, true, false, turned, true, {}}, lack(needed, turned));
+            consider({i, true, false, turned, true, {}}, {}, lack(needed, turned));
         }
         if (!smaller) continue;
-        smaller->stock = i;
-        consider(std::move(*smaller), 0);
+        smaller->block.stock = i;
+        consider(std::move(smaller->block), smaller->flush, 0);
     }
     return best;
+}
+
+StockBlock choose_block(const Cell& cell, Vec3 piece_size) {
+    return choose_flush_block(cell, piece_size, {}).block;
 }
 
 }  // namespace qchopper

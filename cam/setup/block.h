@@ -1,19 +1,43 @@
 // Chooses the block for a piece as it lies: from the list of stock, whole or sawn down.
 //
-// mm. The block that is chosen holds the piece with its margins whenever one of the list does
+// mm, setup coordinates. The block that is chosen holds the piece with its margins whenever one of the list does
 // (tests/cam/setup/block_test.cpp).
 
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "cam/cell/cell.h"
 
 namespace qchopper {
 
 // Foam around a piece: that of the cell file, with a spoil layer that the tools of the machine do not cut through.
 Margins margins_of(const Cell& cell);
+
+// Of a block as it stands, but for its underside.
+enum class BlockFace : std::uint8_t { minus_x, plus_x, minus_y, plus_y, top };
+constexpr std::size_t block_faces = 5;
+
+constexpr auto names_of(BlockFace) {
+    return EnumNames<BlockFace, block_faces>{{{BlockFace::minus_x, "-x"},
+                                              {BlockFace::plus_x, "+x"},
+                                              {BlockFace::minus_y, "-y"},
+                                              {BlockFace::plus_y, "+y"},
+                                              {BlockFace::top, "top"}}};
+}
+
+// Faces of a block that are sawn in the planes of caps, by BlockFace: no foam is kept there.
+using FlushFaces = std::array<bool, block_faces>;
+
+// Foam that is kept at each face, by BlockFace, at least: none where it is flush.
+std::array<double, block_faces> foam_at_faces(const Margins& margins, const FlushFaces& flush);
+
+// What a piece of a size needs with that foam and its spoil layer.
+Vec3 size_with_foam(Vec3 piece_size, const Margins& margins, const FlushFaces& flush);
 
 struct StockBlock {
     std::size_t stock = 0;      // index in Cell::stock
@@ -25,9 +49,27 @@ struct StockBlock {
     bool operator==(const StockBlock&) const = default;
 };
 
+// Foam that is milled off costs about as much machine time as 12 times as much of it that is not there: a square metre
+// of cap to mill as much as 12 litres. The fit over the programs of a bunny gives 0.6 to 0.9 h a square metre
+// and 0.063 h a litre.
+constexpr double foam_per_milled_cap = 12;  // mm
+
+constexpr double flush_step = 0.1;  // mm, of sizes along an axis with a flush face
+
 // For a piece of a size (x along its length), of the blocks that hold it: the one of least volume, where a saw cut
 // counts as 20 l; of equal ones the first of the list. Stock that may be sawn is sawn down to the piece, in an
 // orientation in which nothing need be sawn off or else the largest offcut is left.
 StockBlock choose_block(const Cell& cell, Vec3 piece_size);
+
+// The same with flush faces. `caps_mm2`: by BlockFace, the area of the caps in whose plane the block can end; 0: none.
+// Such a face is sawn in every case, so that stock must be longer by a saw cut for each; where it is not, the faces
+// along that axis are as others. Then saw cuts cost nothing, and caps that are milled their area times
+// foam_per_milled_cap. Along an axis with a flush face the size is in tenths of mm, nearest to the piece, else in whole
+// mm.
+struct FlushBlock {
+    StockBlock block;
+    FlushFaces flush{};  // of the faces that caps lie in, those for which the stock is long enough
+};
+FlushBlock choose_flush_block(const Cell& cell, Vec3 piece_size, const std::array<double, block_faces>& caps_mm2);
 
 }  // namespace qchopper

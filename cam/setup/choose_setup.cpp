@@ -11,6 +11,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "cam/cell/job_tools.h"
+#include "cam/setup/layout/lay_out.h"
 #include "cam/setup/limiting_tools.h"
 #include "cam/setup/mapped_access.h"
 #include "cam/setup/paint_narrow.h"
@@ -31,86 +33,21 @@ constexpr double equal_share = 0.001;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Precondition: the mesh has points.
-Box bounds_in(const Pose& piece_in_setup, const TriangleMesh& mesh) {
-    Box box{apply(piece_in_setup, mesh.points.front()), apply(piece_in_setup, mesh.points.front())};
-    for (const Vec3& p : mesh.points) extend(box, apply(piece_in_setup, p));
-    return box;
+std::vector<std::int32_t> cuts_of(const std::vector<FlushCap>& caps) {
+    std::vector<std::int32_t> cuts;
+    cuts.reserve(caps.size());
+    for (const FlushCap& cap : caps) cuts.push_back(cap.cut);
+    return cuts;
 }
 
-// Turns the piece so that the smallest rectangle of its footprint lies along x, then puts it on z = 0.
-void place(const TriangleMesh& mesh, Setup& setup) {
-    const auto [e1, e2] = frame_under(setup.up);
-    std::vector<Point2> footprint;
-    footprint.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) footprint.push_back({dot(e1, p), dot(e2, p)});
-    const Point2 along = smallest_rectangle(std::move(footprint)).along;
-    const Vec3 x = normalized(along.x * e1 + along.y * e2);
-    setup.piece_in_setup = {{x, cross(setup.up, x), setup.up}, {}};
-    const Box turned = bounds_in(setup.piece_in_setup, mesh);
-    const Vec3 middle = turned.centre();
-    setup.piece_in_setup.shift = -Vec3{middle.x, middle.y, turned.min.z};
-    setup.box = bounds_in(setup.piece_in_setup, mesh);
-    assert(std::abs(setup.box.min.z) < 1e-6);
-}
-
-// By a quarter turn about z: the short side along x.
-void turn(Setup& setup) {
-    Pose& pose = setup.piece_in_setup;
-    pose = {{pose.row[1], -pose.row[0], pose.row[2]}, {pose.shift.y, -pose.shift.x, pose.shift.z}};
-    const Box box = setup.box;
-    setup.box = {{box.min.y, -box.max.x, box.min.z}, {box.max.y, -box.min.x, box.max.z}};
-}
-
-void describe(Setup& setup) {
-    if (setup.base) {
-        setup.base_description = "the cap of cut " + std::to_string(*setup.base);
-        return;
-    }
-    setup.base_description =
-        "no cap: side " + std::to_string(setup.base_number) + " of its box, bedded on the foam that is left under it";
-    setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
-}
-
-// The cell without the stock that is not sawn and does not stand in it; the numbers of the rest stay.
-Cell with_standing_stock(const Cell& cell) {
-    const Vec3 most = largest_block(cell);
-    const auto stands = [&](Vec3 size) { return size.x <= most.x && size.y <= most.y && size.z <= most.z; };
-    Cell standing = cell;
-    for (Stock& stock : standing.stock) {
-        const Vec3 size = stock.size;
-        if (!stock.is_sawn && !stands(size) && !stands({size.y, size.x, size.z})) stock.size = {};  // holds nothing
-    }
-    return standing;
-}
-
-// The piece on one base in its block, before anything is asked of the tool. It is turned by a quarter where its
-// block fits into the cell only so; where an unsawn one fits in neither way, other stock is asked for.
-Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
-    Setup setup;
-    setup.base_number = base.number;
-    setup.base = base.base.cut;
-    setup.up = base.base.up;
-    setup.base_mm2 = base.base_mm2;
-    setup.projected_area_mm2 = base.projected_mm2;
-    describe(setup);
-    place(*piece.mesh, setup);
-    setup.spoil = margins_of(cell).spoil;
-    Setup turned = setup;
-    turn(turned);
-    const auto fits = [&](Setup& lying, const Cell& stocked) {
-        lying.block = choose_block(stocked, lying.box.size());
-        return check_stock_fit(lying, cell).fits();
-    };
-    if (fits(setup, cell)) return setup;
-    if (fits(turned, cell)) return turned;
-    const Cell standing = with_standing_stock(cell);
-    if (standing.stock == cell.stock) return setup;
-    Setup other = setup;
-    for (Setup* lying : {&other, &turned}) {
-        if (fits(*lying, standing)) return *lying;
-    }
-    return setup;
+// What may stay out of reach of a piece whatever its share: a square of two diameters of the finishing tool. Nothing
+// where no block may be sawn.
+double allowed_mm2(const Cell& cell) {
+    if (!is_any_sawn(cell)) return 0;
+    if (!cell.machine) return 4 * cell.tool.diameter * cell.tool.diameter;
+    const std::vector<CuttingTool>& tools = cell.machine->tools;
+    const double diameter = tools[finishing_tool(tools, tools[roughing_tool(tools)].diameter)].diameter;
+    return 4 * diameter * diameter;
 }
 
 double tilt_of(const Cell& cell, const SetupOptions& options) {
@@ -155,8 +92,12 @@ class Choice {
  public:
     Choice(const Piece& piece, const Cell& cell, const SetupOptions& options)
         : piece_(piece), cell_(cell), options_(options), tools_(limiting_tools(cell)), bases_(bases_of(piece)) {
-        for (const PieceBase& base : bases_) {
-            setups_.push_back(laid_out(piece, base, cell));
+        allowed_mm2_ = allowed_mm2(cell);
+        whole_mm2_ = area_mm2(*piece.mesh);
+        const std::vector<CapPoints> caps = caps_to_saw(*piece.mesh, cell);
+        for (PieceBase& base : bases_) {
+            setups_.push_back(lay_out(piece, base, cell, caps));
+            base.base.flush = cuts_of(setups_.back().flush_caps);
             add_workholding(setups_.back(), nullptr);
         }
     }
@@ -244,6 +185,7 @@ class Choice {
         SurfaceAccess& access = setup.access;
         access.area_mm2 = of_base.area_mm2;
         access.ignored_mm2 = ignored_mm2(*piece_.mesh);
+        access.allowed_mm2 = setup.base ? allowed_mm2_ : 0;
         for (const ChosenDirection& d : directions.chosen) {
             access.orientations.push_back(described(d, setup, access.area_mm2));
         }
@@ -254,7 +196,7 @@ class Choice {
         access.narrow_counts = options_.count_narrow;
         describe_further(setup, of_base);
         access.is_arm_checked = cell_.machine.has_value();
-        const Facing sums = facing(*piece_.mesh, setup.up, setup.base);
+        const Facing sums = facing(*piece_.mesh, setup.up, setup.base, cuts_of(setup.flush_caps));
         setup.undercut = sums.undercut();
         setup.undercut_by_count = sums.undercut_by_count();
     }
@@ -266,6 +208,7 @@ class Choice {
         access.narrow_counts = setup.access.narrow_counts;
         access.all_directions_share = setup.access.all_directions_share;
         access.further = setup.access.further;
+        access.allowed_mm2 = setup.access.allowed_mm2;
         access.is_arm_checked = setup.access.is_arm_checked;
         setup.access = std::move(access);
         add_workholding(setup, result.stock_points ? &*result.stock_points : nullptr);
@@ -283,11 +226,22 @@ class Choice {
         return cell_.machine ? std::max(cell_.machine->max_unreachable, least + equal_share) : least;
     }
 
+    // Where blocks are sawn, the surface that counts differs from base to base, and more of it would make a share look
+    // better: then areas are compared, of the area of the whole piece.
+    long unreachable_steps(const Setup& s) const {
+        return steps(allowed_mm2_ > 0 ? s.access.unreachable_mm2() / whole_mm2_ : s.access.unreachable_share());
+    }
+    // mm3: of the block, and what the area to mill counts for.
+    static double foam_and_milling(const Setup& s) {
+        const Vec3 size = s.block.size;
+        return size.x * size.y * size.z + foam_per_milled_cap * s.access.area_mm2;
+    }
+
     // What counts for the order before what only maps tell.
     auto before_foam(const Setup& s, double most) const {
-        const bool holds = s.workholding && s.workholding->passes() && s.access.unreachable_share() <= most;
+        const bool holds = s.workholding && s.workholding->passes() && !s.access.exceeds(most);
         return std::tuple(options_.base != s.base_number, !check_stock_fit(s, cell_).fits(), !holds,
-                          steps(s.access.unreachable_share()));
+                          unreachable_steps(s));
     }
 
     // Index of the setup that is judged by maps next: the first, or one as good, as long as fewer are mapped than
@@ -312,10 +266,11 @@ class Choice {
         const auto key = [&](const Setup& s) {
             const Vec3 size = s.block.size;
             const double block_mm3 = size.x * size.y * size.z;
-            return std::tuple_cat(before_foam(s, most), std::tuple(s.access.method == AccessMethod::sampled,
-                                                                   steps(s.access.foam_mm3 / block_mm3),
-                                                                   steps(s.access.rest_material_mm3 / block_mm3),
-                                                                   !s.block.offcuts.empty(), block_mm3, s.base_number));
+            return std::tuple_cat(
+                before_foam(s, most),
+                std::tuple(s.access.method == AccessMethod::sampled, allowed_mm2_ > 0 ? foam_and_milling(s) : 0,
+                           steps(s.access.foam_mm3 / block_mm3), steps(s.access.rest_material_mm3 / block_mm3),
+                           !s.block.offcuts.empty(), block_mm3, s.base_number));
         };
         std::stable_sort(setups_.begin(), setups_.end(),
                          [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
@@ -329,6 +284,8 @@ class Choice {
     std::vector<Setup> setups_;  // one per base
     std::optional<PieceAccess> access_;
     std::vector<bool> is_narrow_;  // per sample
+    double allowed_mm2_ = 0;       // SurfaceAccess::allowed_mm2; above 0 where blocks are sawn
+    double whole_mm2_ = 0;         // of the piece's surface
 };
 
 }  // namespace
@@ -344,15 +301,17 @@ SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOption
 
 bool fits_cell(const Piece& piece, const Cell& cell) {
     const std::vector<PieceBase> bases = bases_of(piece);
+    const std::vector<CapPoints> caps = caps_to_saw(*piece.mesh, cell);
     return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
-        return check_stock_fit(laid_out(piece, base, cell), cell).fits();
+        return check_stock_fit(lay_out(piece, base, cell, caps), cell).fits();
     });
 }
 
 bool fits_cell_and_machine(const Piece& piece, const Cell& cell) {
     const std::vector<PieceBase> bases = bases_of(piece);
+    const std::vector<CapPoints> caps = caps_to_saw(*piece.mesh, cell);
     return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
-        Setup setup = laid_out(piece, base, cell);
+        Setup setup = lay_out(piece, base, cell, caps);
         if (!check_stock_fit(setup, cell).fits()) return false;
         setup.access.orientations.push_back({setup.up, 0, 0, 0});
         return fits_machine(setup, *piece.mesh, cell);

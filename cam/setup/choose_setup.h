@@ -47,9 +47,11 @@ double max_tilt_deg(const Cell& cell);
 
 // Ranked are, first of all, those whose block fits into the cell; then those whose workholding passes (workholding.h),
 // unless they leave a larger share out of reach than the cell's max_unreachable and the setup that leaves least; then
-// by the least unreachable area, the least foam that stays, the least rest material and the smallest block. With
-// options.base that base is first. Preconditions: the mesh is closed and has triangles, half_space.up() are unit
-// vectors, the cell has a block, and options.base is a number of bases_of(piece).
+// by the least unreachable share, the least foam that stays, the least rest material and the smallest block. Where
+// blocks are sawn the unreachable area counts in place of the share, of the area of the whole piece, and then block and
+// area to mill together (foam_per_milled_cap). With options.base that base is first. Preconditions: the mesh is closed
+// and has triangles, half_space.up() are unit vectors, the cell has a block, and options.base is a number of
+// bases_of(piece).
 SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options = {});
 
 // Whether some way to lay the piece fits into the cell, by boxes alone: the stop rule of that name. Far cheaper than

@@ -188,7 +188,7 @@ class Reaching {
         const StateSums sums = summed<StateSums>(surfaces_.size(), [&](StateSums& block, std::size_t t) {
             const double area = norm(area_vector(mesh_, t));
             if (!counts(t)) {
-                if (is_base(t)) return;
+                if (is_unmilled(t)) return;
                 block.ignored += area;
                 result.states[t] = SurfaceState::ignored;
                 return;
@@ -231,9 +231,9 @@ class Reaching {
         return height_above(map, beside) == 0;
     }
 
-    bool is_base(std::size_t t) const { return setup_.base && cap_of(mesh_, t) == *setup_.base; }
+    bool is_unmilled(std::size_t t) const { return setup_.is_unmilled(cap_of(mesh_, t)); }
     // Whether the triangle is surface that is to be reached.
-    bool counts(std::size_t t) const { return !is_base(t) && !is_ignored(mesh_, t); }
+    bool counts(std::size_t t) const { return !is_unmilled(t) && !is_ignored(mesh_, t); }
 
     const Setup& setup_;
     const TriangleMesh& mesh_;

@@ -25,9 +25,10 @@ struct HeightFieldOptions {
 };
 
 struct MappedAccess {
-    SurfaceAccess access;              // method mapped; all_directions_share, further, too_narrow_mm2 are left at 0
-    std::vector<SurfaceState> states;  // per triangle, of the largest part of it; the base's are `reached`
-    std::vector<float> reached;        // per triangle, the share that is reached with the holder
+    SurfaceAccess access;  // method mapped; all_directions_share, further, too_narrow_mm2 are left at 0
+    std::vector<SurfaceState>
+        states;  // per triangle, of the largest part of it; those of the base and of flush caps are `reached`
+    std::vector<float> reached;               // per triangle, the share that is reached with the holder
     std::optional<StockPoints> stock_points;  // what is left in the piece's box; nothing where that is flat
 };
 
@@ -48,10 +49,10 @@ struct MappedAccess {
 // The depth of a direction is right to 1/4096 of the block's diagonal and leaves out the deepest ten-thousandth of the
 // area that it reaches, and what lies within a cell of higher surface.
 //
-// Of the setup are used its base, pose and block, the tool axes of its access and whether steep counts; without a
-// smallest radius there is no rest material. Preconditions: the mesh is that of the piece, consistent and closed, and
-// has area; there is a tool axis, and none is more than 90 degrees from `up`. Throws as height_field() does.
-// O(directions x (triangles + cells)); beside the mesh at most 8 bytes a cell of a single map, 24 bytes a
+// Of the setup are used its base, flush caps, pose and block, the tool axes of its access and whether steep counts;
+// without a smallest radius there is no rest material. Preconditions: the mesh is that of the piece, consistent and
+// closed, and has area; there is a tool axis, and none is more than 90 degrees from `up`. Throws as height_field()
+// does. O(directions x (triangles + cells)); beside the mesh at most 8 bytes a cell of a single map, 24 bytes a
 // triangle and a bit a foam point.
 MappedAccess mapped_access(const TriangleMesh& mesh, const Setup& setup, const LimitingTools& tools,
                            const HeightFieldOptions& options = {});

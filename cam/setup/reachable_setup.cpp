@@ -73,7 +73,7 @@ class ReachableSetupSearch {
     }
 
     bool is_good(const Setup& setup, const Setup& best) const {
-        return setup.access.unreachable_share() <= std::max(options_.max_unreachable, best.access.unreachable_share());
+        return !setup.access.exceeds(std::max(options_.max_unreachable, best.access.unreachable_share()));
     }
 
     std::optional<ReachableSetup> on_another_base(const std::vector<Setup>& bases) {

@@ -2,12 +2,13 @@
 // turned, and the block it is milled from.
 //
 // Values only; lengths in mm. Setup coordinates: z up, the piece's base plane (its lowest point, without a base) at z =
-// 0, the underside of the block at z = -spoil, the block's middle and the middle of the piece's box at x = y = 0, x
-// along the long side of the piece's smallest rectangle on the table, or across it where the block fits into the cell
-// only so.
+// 0, the underside of the block at z = -spoil, the block's middle at x = y = 0. Along an axis with one flush face the
+// piece lies against that face, along others the middle of its box is at 0. x lies along the long side of the piece's
+// box in that turn, or across it where the block fits into the cell only so.
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,14 @@
 
 namespace qchopper {
 
+// A cap that is a face of the block: the saw makes it, and no tool has to reach it.
+struct FlushCap {
+    std::int32_t cut = 0;
+    BlockFace face = BlockFace::top;
+    double area_mm2 = 0;
+    bool operator==(const FlushCap&) const = default;
+};
+
 struct Setup {
     int base_number = 0;               // as PieceBase::number: with what --base chooses it
     std::optional<std::int32_t> base;  // number of the cut whose cap lies on the table; none: the piece owns no cap
@@ -37,7 +46,9 @@ struct Setup {
 
     double spoil = 0;  // thickness of the layer under the piece that stays on the table
     StockBlock block;
-    BlockPlacement placement;  // of the block on the table
+    std::vector<FlushCap> flush_caps;  // by cut; a face of the block is sawn in the plane of a cap if one lies in it
+    double milled_caps_mm2 = 0;        // area of the caps that are neither the base nor flush
+    BlockPlacement placement;          // of the block on the table
 
     std::optional<Workholding> workholding;  // nothing: not checked, in a cell without a machine
     SurfaceAccess access;                    // what the tool reaches
@@ -57,6 +68,17 @@ struct Setup {
     // From the tip into the spindle, in setup coordinates: a unit vector, to rounding.
     Vec3 tool_axis(const ToolOrientation& orientation) const { return rotate(piece_in_setup, orientation.tool_axis); }
     Vec3 tool_axis(std::size_t orientation) const { return tool_axis(access.orientations[orientation]); }
+
+    FlushFaces flush_faces() const {
+        FlushFaces faces{};
+        for (const FlushCap& cap : flush_caps) faces[static_cast<std::size_t>(cap.face)] = true;
+        return faces;
+    }
+    // Whether the cap of a cut is no surface to mill: the base, which is parted from the block, or sawn.
+    bool is_unmilled(std::int32_t cut) const {
+        return cut == base ||
+               std::any_of(flush_caps.begin(), flush_caps.end(), [&](const FlushCap& cap) { return cap.cut == cut; });
+    }
 
     bool operator==(const Setup&) const = default;
 };

@@ -222,8 +222,10 @@ double breaking_force(const StandingSection& section, double strength, double he
 // Of the spread of the base through the spoil layer (workholding.h).
 double joint_force(const StandingSection& base, const Setup& setup, const Workholding& check) {
     if (!(base.reach > 0)) return 0;
-    const Vec3 beside = 0.5 * (setup.block.size - setup.box.size());
-    const double spread = std::max(0.0, std::min({setup.spoil, beside.x, beside.y}));
+    const Box block = setup.block_box();
+    const Vec3 low = setup.box.min - block.min;
+    const Vec3 high = block.max - setup.box.max;
+    const double spread = std::max(0.0, std::min({setup.spoil, low.x, low.y, high.x, high.y}));
     const double k = 1 + spread / base.reach;
     return check.holding.strength * k * k * k * base.modulus_mm3 / (check.height + setup.spoil);
 }

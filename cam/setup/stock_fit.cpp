@@ -29,10 +29,18 @@ void add_piece_margins(const Setup& setup, const Cell& cell, std::vector<Margin>
     const Vec3 piece = setup.box.size();
     const Vec3 block = setup.block.size;
     const std::string name = "block " + cell.stock[setup.block.stock].name + " (" + describe_size(block) + ")";
-    const Margins foam = margins_of(cell);
-    margins.push_back({"piece in block, length", "too long for " + name, block.x - piece.x - 2 * foam.sides});
-    margins.push_back({"piece in block, width", "too wide for " + name, block.y - piece.y - 2 * foam.sides});
-    margins.push_back({"piece in block, height", "too high for " + name, block.z - piece.z - foam.top - foam.spoil});
+    const FlushFaces flush = setup.flush_faces();
+    Vec3 room = block - size_with_foam(piece, margins_of(cell), flush);
+    // Sizes of sawn blocks are to a step, nearest to the piece.
+    const auto is_nearest = [&](double mm, bool is_flush) {
+        return is_flush && std::abs(mm) <= 0.5 * flush_step + rounding;
+    };
+    if (is_nearest(room.x, flush[0] || flush[1])) room.x = 0;
+    if (is_nearest(room.y, flush[2] || flush[3])) room.y = 0;
+    if (is_nearest(room.z, flush[4])) room.z = 0;
+    margins.push_back({"piece in block, length", "too long for " + name, room.x});
+    margins.push_back({"piece in block, width", "too wide for " + name, room.y});
+    margins.push_back({"piece in block, height", "too high for " + name, room.z});
 }
 
 // The tool travels around the block, its axis half a diameter outside.

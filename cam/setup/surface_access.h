@@ -1,8 +1,8 @@
 // How much of a piece's surface the tool reaches from the directions of a setup, and what stays.
 //
-// Values only; mm, mm2, mm3. Shares are of the piece's area without its base and
-// without surface that is ignored. Visibility is that of a tool of radius
-// zero; what its radius leaves is told apart as too narrow, and as rest material.
+// Values only; mm, mm2, mm3. Shares are of skin and milled caps: of the piece's area without its base, without caps
+// that are sawn faces of the block, and without surface that is ignored. Visibility is that of a tool of radius zero;
+// what its radius leaves is told apart as too narrow, and as rest material.
 
 #pragma once
 
@@ -39,7 +39,7 @@ enum class SurfaceState : std::uint8_t {
 struct SurfaceAccess {
     AccessMethod method = AccessMethod::sampled;
     std::vector<ToolOrientation> orientations;  // the base's up first
-    double area_mm2 = 0;                        // of the piece without its base and what is ignored
+    double area_mm2 = 0;                        // of skin and milled caps, without what is ignored
     double hidden_mm2 = 0;                      // caps that face away from all directions included
     double steep_mm2 = 0;
     double holder_mm2 = 0;
@@ -53,13 +53,18 @@ struct SurfaceAccess {
     double foam_depth_mm = 0;         // largest height of it over a surface point, along the best direction; mapped
     double rest_material_mm3 = 0;     // that the smallest tool's radius leaves besides; mapped only
     std::optional<ToolOrientation> further;  // a further direction worth having
-    bool is_arm_checked = false;             // whether the directions are held was asked of the arm
+    // So much may stay out of reach whatever its share: what a small share of a small piece is. 0 where no block is
+    // sawn.
+    double allowed_mm2 = 0;
+    bool is_arm_checked = false;  // whether the directions are held was asked of the arm
 
     double unreachable_mm2() const {
         return hidden_mm2 + holder_mm2 + (steep_counts ? steep_mm2 : 0) + (narrow_counts ? too_narrow_mm2 : 0);
     }
     // 0..1: sums that rounding makes a little larger than the area are no more than all of it.
     double unreachable_share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2() / area_mm2) : 0; }
+    // Whether more is out of reach than may be.
+    bool exceeds(double max_share) const { return unreachable_share() > max_share && unreachable_mm2() > allowed_mm2; }
     bool operator==(const SurfaceAccess&) const = default;
 };
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "segment/mesh/triangle_mesh.h"
 
@@ -28,7 +29,8 @@ struct Facing {
         return all > 0 ? static_cast<double>(triangles_down) / all : 0.5;
     }
 };
-// Precondition: the mesh is consistent, and `up` is not zero.
-Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base);
+// Caps of the cuts `sawn` are left out of both. Precondition: the mesh is consistent, and `up` is not zero.
+Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base,
+              std::span<const std::int32_t> sawn = {});
 
 }  // namespace qchopper

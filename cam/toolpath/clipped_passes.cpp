@@ -4,10 +4,12 @@
 #include "cam/toolpath/clipped_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "cam/stock/cl_surface.h"
 #include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
@@ -18,6 +20,9 @@ constexpr double touching = 1.5;     // mm
 constexpr double square = 8;         // cells of foam on each side
 constexpr float rounding = 1e-3F;    // mm, of heights in single precision
 constexpr double min_length = 1e-6;  // mm; rounding leaves less
+// A ball whose centre is so much less than a radius beyond a sawn face still touches skin beside its rim.
+constexpr double inside_sawn_face = 0.3;  // mm
+constexpr double sawn_step = 0.5;         // mm, between points of passes that are asked
 
 // Of a pass, in mm from its beginning.
 struct Stretch {
@@ -170,6 +175,26 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space
 std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl) {
     return divided(passes, touching,
                    [&](Vec3 p) { return static_cast<double>(dilation_at(cl, p.x, p.y, touching)) >= p.z - touching; })
+        .free;
+}
+
+std::vector<Pass> clear_of_sawn_faces(const std::vector<Pass>& passes, const HeightField& map, const CuttingTool& tool,
+                                      const Setup& setup) {
+    if (setup.flush_caps.empty()) return passes;
+    const Box block = setup.block_box();
+    const FlushFaces flush = setup.flush_faces();
+    const double radius = 0.5 * tool.diameter;
+    return divided(passes, sawn_step,
+                   [&](Vec3 p) {
+                       const Vec3 c = field_to_setup(setup, map, p + Vec3{0, 0, radius});
+                       const std::array<double, block_faces> beyond{block.min.x - c.x, c.x - block.max.x,
+                                                                    block.min.y - c.y, c.y - block.max.y,
+                                                                    c.z - block.max.z};
+                       for (std::size_t f = 0; f < block_faces; ++f) {
+                           if (flush[f] && beyond[f] > radius - inside_sawn_face) return false;
+                       }
+                       return true;
+                   })
         .free;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
+#include "cam/setup/setup.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/toolpath_linker.h"
 
@@ -29,5 +30,11 @@ double length_of(const std::vector<Pass>& passes);
 // The parts of passes along which a tool is about 1.5 mm at most from touching, where `cl` is the CL surface of the
 // tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
 std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl);
+
+// The parts of passes of a ball-ended tool, in the frame of a map, along which it comes nearer to the piece than a sawn
+// face of the block: where its centre is about a radius beyond the face it touches nothing else, and would mill the
+// face of a block that stands out a little. O(length).
+std::vector<Pass> clear_of_sawn_faces(const std::vector<Pass>& passes, const HeightField& map, const CuttingTool& tool,
+                                      const Setup& setup);
 
 }  // namespace qchopper

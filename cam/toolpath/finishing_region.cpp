@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "cam/stock/cl_surface.h"
 #include "segment/mesh/measure.h"
 #include "segment/raster/shared_value.h"
 #include "segment/raster/square_dilation.h"
@@ -46,14 +47,14 @@ std::uint8_t class_of(double foam, double near) {
 
 }  // namespace
 
-RestMaterial::RestMaterial(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing)
+RestMaterial::RestMaterial(const TriangleMesh& mesh, const Setup& setup, double spacing)
     : mesh_(&mesh), spacing_(spacing), first_point_(mesh.triangles.size() + 1, 0) {
     assert(is_consistent(mesh) && spacing > 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const bool is_base = base && cap_of(mesh, t) == *base;
+        const bool is_unmilled = setup.is_unmilled(cap_of(mesh, t));
         const bool is_ignored = !mesh.ignored.empty() && mesh.ignored[t] != 0;
         std::size_t points = 0;
-        if (!is_base && !is_ignored) {
+        if (!is_unmilled && !is_ignored) {
             const auto& corner = mesh.triangles[t];
             double longest = 0;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -148,7 +149,7 @@ double RestMaterial::share_within(std::size_t k) const {
     return sum > 0 ? within / sum : 1;
 }
 
-void add_floor_band(FinishingRegion& region, const HeightField& target, double width) {
+void add_floor_band(FinishingRegion& region, const HeightField& target, double width, const Setup& setup) {
     assert(region.size() == target.height.size());
     if (target.height.empty()) return;
     const float floor = *std::min_element(target.height.begin(), target.height.end());
@@ -156,8 +157,17 @@ void add_floor_band(FinishingRegion& region, const HeightField& target, double w
     for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = target.height[i] > floor + 1e-3F ? 1 : 0;
     const auto by = static_cast<std::size_t>(std::ceil(width / target.cell));
     const CellMask band = dilate_by_square(piece, target.columns, target.rows, by);
+    const Box block = setup.block_box();
+    const FlushFaces flush = setup.flush_faces();
+    const auto is_beyond_saw = [&](std::size_t i) {
+        const double column = static_cast<double>(i % target.columns) + 0.5;
+        const double row = static_cast<double>(i / target.columns) + 0.5;
+        const Vec3 p = field_to_setup(setup, target, {target.cell * column, target.cell * row, 0});
+        return (flush[0] && p.x < block.min.x) || (flush[1] && p.x > block.max.x) || (flush[2] && p.y < block.min.y) ||
+               (flush[3] && p.y > block.max.y);
+    };
     for (std::size_t i = 0; i < piece.size(); ++i) {
-        if (band[i] != 0 && piece[i] == 0) region[i] = std::min(region[i], target.height[i]);
+        if (band[i] != 0 && piece[i] == 0 && !is_beyond_saw(i)) region[i] = std::min(region[i], target.height[i]);
     }
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/raster/height_field.h"
 
@@ -23,9 +24,10 @@ constexpr float not_finished = std::numeric_limits<float>::infinity();
 // What the directions and tools so far have left over the surface of a piece.
 class RestMaterial {
  public:
-    // The base, a cap of that number, is left out, and so are triangles that are ignored. Points are at most `spacing`
-    // apart on a triangle. The mesh must outlive it. Preconditions: the mesh is consistent, spacing > 0.
-    RestMaterial(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing = 1);
+    // Caps that are no surface to mill (Setup::is_unmilled) are left out, and so are triangles that are ignored. Points
+    // are at most `spacing` apart on a triangle. The mesh must outlive it. Preconditions: the mesh is consistent,
+    // spacing > 0.
+    RestMaterial(const TriangleMesh& mesh, const Setup& setup, double spacing = 1);
 
     // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
     // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
@@ -60,7 +62,8 @@ class RestMaterial {
 };
 
 // Adds the floor within a distance of the projection of the piece: of a map along the base's up, in which the floor is
-// what is lowest.
-void add_floor_band(FinishingRegion& region, const HeightField& target, double width);
+// what is lowest. Not beyond flush faces of the block: there it is air, and a block that stands out a little would be
+// milled along its sawn face.
+void add_floor_band(FinishingRegion& region, const HeightField& target, double width, const Setup& setup);
 
 }  // namespace qchopper

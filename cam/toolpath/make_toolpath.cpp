@@ -76,7 +76,7 @@ class ToolpathMaker {
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
           centre_stock_(setup, StockCells::centres),
-          left_(mesh, setup.base, surface_spacing),
+          left_(mesh, setup, surface_spacing),
           coarse_pieces_(setup.access.orientations.size()) {
         check_settings(settings, machine_, tools_);
         const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
@@ -220,7 +220,7 @@ class ToolpathMaker {
         if (has_floor) options.floor = &floor;
         options.tool = &over_piece->tool;
         std::vector<Pass> passes = finishing_passes(cl, tool, region, options, context_);
-        passes = near_surface(passes, own_cl);
+        passes = clear_of_sawn_faces(near_surface(passes, own_cl), own_cl, tool, setup_);
         own_cl = {};
         PassesLeft left{std::move(operation), std::move(over_piece), std::move(cl), std::move(passes), left_.takes()};
         mill(left);
@@ -340,9 +340,9 @@ class ToolpathMaker {
     }
 
     // The floor within a tool's width of the piece.
-    static FinishingRegion floor_band(const HeightField& piece, double width) {
+    FinishingRegion floor_band(const HeightField& piece, double width) const {
         FinishingRegion floor(piece.height.size(), not_finished);
-        add_floor_band(floor, piece, width);
+        add_floor_band(floor, piece, width, setup_);
         return floor;
     }
 

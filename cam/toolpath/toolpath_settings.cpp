@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "cam/cell/job_tools.h"
 
 namespace qchopper {
 namespace {
@@ -18,62 +18,15 @@ namespace {
     throw InputError(InputFault::use, what, to_do);
 }
 
-using IsBetter = std::function<bool(const CuttingTool&, const CuttingTool&)>;
-using IsMeant = std::function<bool(const CuttingTool&)>;
-
-// The best of the tools that are meant, the first of equal ones.
-std::optional<std::size_t> best(const std::vector<CuttingTool>& tools, const IsMeant& is_meant,
-                                const IsBetter& is_better) {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (is_meant(tools[i]) && (!found || is_better(tools[i], tools[*found]))) found = i;
-    }
-    return found;
-}
-
-bool is_ball(const CuttingTool& tool) {
-    return tool.shape == ToolShape::ball;
-}
-
-bool is_larger(const CuttingTool& a, const CuttingTool& b) {
-    return a.diameter > b.diameter;
-}
-
 std::size_t given(const CellMachine& machine, std::size_t tool, const std::string& name, bool must_be_ball) {
     if (tool >= machine.tools.size()) refuse(name + ": the cell has no tool at place " + std::to_string(tool + 1));
-    if (must_be_ball && !is_ball(machine.tools[tool])) {
+    if (must_be_ball && machine.tools[tool].shape != ToolShape::ball) {
         refuse(name + ": tool " + std::to_string(machine.tools[tool].number) + " is not ball-ended");
     }
     if (is_drill(machine.tools[tool])) {
         refuse(name + ": tool " + std::to_string(machine.tools[tool].number) + " is a drill");
     }
     return tool;
-}
-
-std::size_t roughing_tool(const std::vector<CuttingTool>& tools) {
-    const auto found = best(
-        tools, [](const CuttingTool& t) { return is_ball(t) || t.shape == ToolShape::flat; },
-        [](const CuttingTool& a, const CuttingTool& b) {
-            return std::pair(a.diameter, a.shape == ToolShape::flat) >
-                   std::pair(b.diameter, b.shape == ToolShape::flat);
-        });
-    if (!found)
-        throw InputError(InputFault::config, "the cell has no flat or ball-ended tool", "add one to the cell file");
-    return *found;
-}
-
-std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughing_diameter) {
-    const IsMeant is_smaller = [&](const CuttingTool& t) { return is_ball(t) && t.diameter < roughing_diameter; };
-    auto found = best(tools, is_smaller, is_larger);
-    if (!found) found = best(tools, is_ball, is_larger);
-    if (!found) throw InputError(InputFault::config, "the cell has no ball-ended tool", "add one to the cell file");
-    return *found;
-}
-
-std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter) {
-    return best(
-        tools, [&](const CuttingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
-        [](const CuttingTool& a, const CuttingTool& b) { return a.diameter < b.diameter; });
 }
 
 void check_scallop(double scallop, const CuttingTool& tool, const std::string& name) {

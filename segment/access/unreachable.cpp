@@ -24,7 +24,7 @@ TiltBase lying_on(const OwnedCap& cap) {
 }
 
 bool counts_as_surface(const OwnedCap& cap, const TiltBase& base) {
-    return base.cut != cap.cut;
+    return base.cut != cap.cut && std::find(base.flush.begin(), base.flush.end(), cap.cut) == base.flush.end();
 }
 
 bool is_out_of_reach(const OwnedCap& cap, const TiltBase& base, std::span<const Vec3> directions) {

@@ -27,13 +27,14 @@ std::vector<OwnedCap> owned_caps(const Piece& piece);
 
 // How a piece lies, and with it which of its caps are no surface that a tool has to reach.
 struct TiltBase {
-    Vec3 up{0, 0, 1};                 // unit
-    std::optional<std::int32_t> cut;  // whose cap lies on the table, if any
+    Vec3 up{0, 0, 1};                      // unit
+    std::optional<std::int32_t> cut;       // whose cap lies on the table, if any
+    std::vector<std::int32_t> flush = {};  // whose caps are sawn faces of the block
 };
 TiltBase lying_on(const OwnedCap& cap);
 
-// Whether the cap counts as surface when the piece lies on the base: all do but the one on the table. Nothing else
-// decides this for samples, chosen directions and the sweep.
+// Whether the cap counts as surface when the piece lies on the base: all do but the one on the table and those that are
+// sawn. Nothing else decides this for samples, chosen directions and the sweep.
 bool counts_as_surface(const OwnedCap& cap, const TiltBase& base);
 // Whether the cap counts and no tool that comes out along one of the directions (unit vectors) reaches it. Caps are
 // flat and hide nothing of themselves: they need no rays.

@@ -18,6 +18,7 @@
 #include "segment/cut/nudge.h"
 #include "segment/objectives/sweep/prepared.h"
 #include "segment/search/best_first.h"
+#include "segment/search/candidates/cap_frame.h"
 #include "segment/search/candidates/size_candidates.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/refined_plane.h"
@@ -39,11 +40,24 @@ PlanesOfNormal unevaluated(Vec3 normal, std::size_t number, const std::vector<do
     return planes;
 }
 
+// The axes of the box, the octahedron's, and those that follow from the caps, each once.
+std::vector<Vec3> normals_of(const Piece& piece, const OrientedBox& box, const CandidateOptions& options) {
+    std::vector<Vec3> normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
+    if (!options.along_caps) return normals;
+    const std::vector<Vec3> caps = cap_normals(piece);
+    for (std::size_t n = axes_of_box; n < normals.size(); ++n) normals[n] = snapped(normals[n], caps);
+    for (const Vec3& normal : normals_along_caps(piece)) {
+        const auto is_same = [&](Vec3 n) { return norm(cross(n, normal)) <= same_direction_rad; };
+        if (std::none_of(normals.begin(), normals.end(), is_same)) normals.push_back(normal);
+    }
+    return normals;
+}
+
 AccessEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchSettings& settings,
                         const Context& context) {
     AccessEvaluations result;
     const CandidateOptions& options = settings.candidates;
-    result.normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
+    result.normals = normals_of(piece, box, options);
     result.planes.resize(result.normals.size());
     result.unreachable_mm2.resize(result.normals.size());
     const AccessSweep sweep(piece, settings.objectives.tilt_deg);
@@ -73,15 +87,16 @@ class AccessRanking {
           settings_(settings),
           context_(context),
           access_(cache.access(piece_)),
+          cutting_box_(box_for_cuts(piece_, cache.box(piece_), settings.candidates)),
           is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0 &&
                      (settings.objectives.weights.utilization == 0 ||
                       settings.objectives.utilization_scope == TermScope::cut)) {
         if (access_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
-            access_ = swept(piece_, cache.box(piece_), settings, context);
+            access_ = swept(piece_, cutting_box_, settings, context);
         }
         best = std::max(settings.beam, best);
-        auto for_size = candidates_for_size(cache.box(piece_), settings.candidates, too_large_for);
+        auto for_size = candidates_for_size(cutting_box_, settings.candidates, too_large_for);
         if (access_.objectives != settings.objectives || access_.best != best || access_.for_size != for_size) {
             for (PlanesOfNormal& planes : access_.planes) {
                 for (EvaluatedPlane& plane : planes) plane = {.candidate = plane.candidate};
@@ -332,7 +347,10 @@ class AccessRanking {
         const auto is_allowed = [&](const Plane& plane) {
             return !is_forbidden(forbidden_heights(no_cut_, plane.normal), plane.offset);
         };
-        const RefinedPlane found = refined_plane(access, piece_, best.candidate.plane, step, context_, is_allowed);
+        const std::vector<Vec3> caps = settings_.candidates.along_caps ? cap_normals(piece_) : std::vector<Vec3>();
+        const bool may_turn = caps.empty() || !is_along(best.candidate.plane.normal, caps);
+        const RefinedPlane found =
+            refined_plane(access, piece_, best.candidate.plane, step, context_, is_allowed, may_turn);
         if (found.plane == best.candidate.plane) return;
         const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
         if (!nudged || !is_allowed({found.plane.normal, nudged->offset})) return;
@@ -381,6 +399,7 @@ class AccessRanking {
     const SearchSettings& settings_;
     const Context& context_;
     AccessEvaluations& access_;
+    OrientedBox cutting_box_;
     bool is_of_cut_;  // the other pieces add the same to the cost of every plane
     std::vector<NoCutTriangle> no_cut_;
     std::vector<Candidate> further_;

@@ -29,7 +29,7 @@ Plane moved(const Plane& from, Vec3 middle, const Move& move) {
 }  // namespace
 
 RefinedPlane refined_plane(DenseAccess& access, const Piece& piece, const Plane& from, double step_mm,
-                           const Context& context, const std::function<bool(const Plane&)>& is_allowed) {
+                           const Context& context, const std::function<bool(const Plane&)>& is_allowed, bool may_turn) {
     const Vec3 middle = bounds(*piece.mesh).centre();
     Move best{};
     RefinedPlane found{from, access.unreachable_mm2(from)};
@@ -38,7 +38,7 @@ RefinedPlane refined_plane(DenseAccess& access, const Piece& piece, const Plane&
         for (int moves = 0; moves < max_moves && found.unreachable_mm2 > 0; ++moves) {
             const Move start = best;
             const double before = found.unreachable_mm2;
-            for (std::size_t k = 0; k < step.size(); ++k) {
+            for (std::size_t k = 0; k < (may_turn ? step.size() : 1); ++k) {
                 for (const double sign : {-1.0, 1.0}) {
                     context.check_cancelled();
                     Move tried = start;

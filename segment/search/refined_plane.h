@@ -23,8 +23,9 @@ struct RefinedPlane {
 // problems, 1961): of six neighbours, `step` along the normal and three degrees about two axes through the middle of
 // the piece, the best is taken while it leaves less; then once more with half the steps. The plane `from` itself
 // if none leaves less. Precondition: step_mm > 0. Some 25 planes at most. Throws Cancelled.
-// `is_allowed`: planes of which it is false are left out; empty: none is.
+// `is_allowed`: planes of which it is false are left out; empty: none is. Without `may_turn` it is only moved.
 RefinedPlane refined_plane(DenseAccess& access, const Piece& piece, const Plane& from, double step_mm,
-                           const Context& context, const std::function<bool(const Plane&)>& is_allowed = {});
+                           const Context& context, const std::function<bool(const Plane&)>& is_allowed = {},
+                           bool may_turn = true);
 
 }  // namespace qchopper

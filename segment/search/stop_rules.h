@@ -41,6 +41,7 @@ using FitsCell = std::function<bool(const Piece&)>;
 struct UnreachableSurface {
     double mm2 = 0;
     double share = 0;
+    double allowed_mm2 = 0;  // so much may stay out of reach whatever its share
 };
 using UnreachableOf = std::function<UnreachableSurface(const Piece&)>;
 
@@ -120,7 +121,10 @@ class StopJudge {
     PieceRule cell_rule() const;
     Verdict& verdict(const Piece& piece);
     bool is_access_limited() const { return rules_.max_unreachable && checks_.unreachable; }
-    bool is_out_of_reach(const Piece& piece) { return unreachable(piece).share > *rules_.max_unreachable; }
+    bool is_out_of_reach(const Piece& piece) { return is_more_than(unreachable(piece), *rules_.max_unreachable); }
+    static bool is_more_than(const UnreachableSurface& surface, double max_share) {
+        return surface.share > max_share && surface.mm2 > surface.allowed_mm2;
+    }
 
     StopRules rules_;
     std::function<double(const Piece&)> priority_;

@@ -15,7 +15,7 @@ constexpr std::array<const char*, finding_kinds> words{
     "link_feed",    "deep_cut",       "below_floor",   "spindle_off",    "spindle_speed",   "extraction_off",
     "left_on",      "unknown_signal", "motion_limit",  "not_home",       "start_from_home", "gouge",
     "gouge_volume", "given_up",       "leftover",      "standing_foam",  "missing_hole",    "shifted_hole",
-    "hole_depth",   "hole_diameter",  "repeated_hole", "extra_hole",     "no_cut"};
+    "hole_depth",   "hole_diameter",  "repeated_hole", "extra_hole",     "no_cut",          "flush_face"};
 
 }  // namespace
 

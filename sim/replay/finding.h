@@ -56,9 +56,10 @@ enum class FindingKind : std::uint8_t {
     hole_diameter,  // drilled with another drill
     repeated_hole,  // drilled again after the drill left it, or no deeper than before
     extra_hole,     // a drill in foam where the program is to drill no hole
-    no_cut          // the program removes nothing
+    no_cut,         // the program removes nothing
+    flush_face      // a cap is not the sawn face that the job says, or a tool comes to one
 };
-constexpr std::size_t finding_kinds = 41;
+constexpr std::size_t finding_kinds = 42;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

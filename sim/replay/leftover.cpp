@@ -168,7 +168,7 @@ LeftoverFigures measure_leftover(const StockModel& stock_model, const ReplayScen
     const TriangleMesh& mesh = *scene.target;
     std::vector<Sample> samples;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (scene.is_base.empty() || !scene.is_base[t]) add_samples(mesh, t, options.sample_mm, samples);
+        if (scene.is_unmilled.empty() || !scene.is_unmilled[t]) add_samples(mesh, t, options.sample_mm, samples);
     }
     const double within_reach = scene.scallop + 0.75 * options.reach_cell;
     const double tolerance = scene.scallop + options.too_much;

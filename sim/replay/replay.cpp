@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "sim/replay/flush_check.h"
 #include "sim/replay/gouge.h"
 #include "sim/replay/machine_walk.h"
 #include "sim/replay/reachable.h"
@@ -35,8 +36,10 @@ void check_scene(const ReplayScene& scene) {
     const Vec3 size = scene.block.size();
     demand(size.x > 0 && size.y > 0 && size.z > 0, "the block has no size");
     demand(scene.target != nullptr && !scene.target->triangles.empty(), "the piece has no surface");
-    demand(scene.is_base.empty() || scene.is_base.size() == scene.target->triangles.size(),
+    demand(scene.is_unmilled.empty() || scene.is_unmilled.size() == scene.target->triangles.size(),
            "the base is not of the piece");
+    const auto has_face = [](const SceneCap& cap) { return cap.face.value_or(0) < SceneCap::faces; };
+    demand(std::ranges::all_of(scene.caps, has_face), "a cap is said to be a face that no block has");
 }
 
 double largest_rounding(const ToolPath& path) {
@@ -120,6 +123,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     check_scene(scene);
     FindingLog log;
     ReplayReport report;
+    check_flush_faces(scene, log);
     const ToolPath path = walk_machine(program, scene, log, context);
     report.time = time_of(path);
     report.largest_rounding = largest_rounding(path);
@@ -129,6 +133,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     if (scene.before != nullptr) stock_model.start_from(*scene.before);
     report.milling = mill_stock(stock_model, path, scene, options.is_worst, log, context);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
+    check_beside_flush_faces(path, scene, log, context);
     report.largest_gouge = gouges.largest;
     report.gouge_place = gouges.place;
     report.gouge_at = gouges.at;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,15 @@ struct SceneHole {
     bool is_due = false;     // this program does
 };
 
+// A cap of the piece, as the job states it.
+struct SceneCap {
+    static constexpr std::size_t faces = 5;  // of a block: -x, +x, -y, +y and the top
+    std::int32_t cut = 0;
+    Vec3 point;                       // of its plane
+    Vec3 outward{0, 0, 1};            // unit
+    std::optional<std::size_t> face;  // of the block that it is said to be; nothing: it is milled
+};
+
 struct ReplayScene {
     const Cell* cell = nullptr;  // with a machine and a robot
     std::vector<SceneOrientation> orientations;
@@ -51,7 +61,9 @@ struct ReplayScene {
     Box block;                                                       // as it stands before the program
     double spoil = 10;
     const TriangleMesh* target = nullptr;  // closed
-    std::vector<bool> is_base;             // per triangle of the target; empty: none
+    std::vector<bool> is_unmilled;         // per triangle of the target: base or sawn face; empty: none
+    std::vector<SceneCap> caps = {};       // of the piece but the base; empty: not known
+    double flush_tolerance = 0.1;          // mm, of caps that are faces of the block
     double scallop = 0.25;                 // the scallop height that was set
     double start_table_angle = 0;          // the joints at the start are CellMachine::start
     // Of a program in parts, each replayed for itself: what the part before left, nullptr for the first; and whether

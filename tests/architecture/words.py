@@ -167,7 +167,10 @@ EXEMPT = {
 }
 
 # Older names of options that are still taken, for one version.
-ALIASES = {"app/cli/arguments/project_options.cpp": {"crumbs", "smooth_marks"}}
+ALIASES = {
+    "app/cli/arguments/project_options.cpp": {"crumbs", "smooth_marks"},
+    "tests/app/cli/older_options_test.cpp": {"crumbs"},
+}
 
 WORD = re.compile(r"[A-Za-z]+")
 CAMEL = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")

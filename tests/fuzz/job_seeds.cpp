@@ -1,6 +1,7 @@
-// A job file, the texts of its ticket and manifest, and two cell files.
+// Job files, the texts of their tickets and manifests, and cell files.
 
 #include <memory>
+#include <utility>
 
 #include "base/files/file.h"
 #include "base/files/zip.h"
@@ -55,11 +56,28 @@ JobInput some_job() {
     return input;
 }
 
-}  // namespace
-
-std::vector<Encoded> job_seeds() {
+// The same with two caps more: the block ends at one, the other is milled.
+JobInput sawn_job() {
     JobInput input = some_job();
-    const Bytes whole = job_file(input);
+    input.piece.half_spaces.push_back({5, {{1, 0, 0}, 10}, false});
+    input.piece.half_spaces.push_back({6, {{1, 0, 0}, -10}, true});
+    input.cell.stock[0].is_sawn = true;
+    input.cell.stock[0].kerf = 3;
+    Setup& setup = input.setup;
+    setup.piece_in_setup.shift = {2.5, 0, 0};
+    setup.box = {{-7.5, -5, 0}, {12.5, 5, 8}};
+    setup.block.size = {25, 20, 21};
+    setup.flush_caps = {{5, BlockFace::plus_x, 80}};
+    setup.milled_caps_mm2 = 80;
+    setup.access.allowed_mm2 = 576;
+    input.alternatives = {setup};
+    input.caps.clear();
+    return input;
+}
+
+// The job packed, and its texts one after the other.
+std::pair<Bytes, Bytes> packed(const JobInput& input) {
+    Bytes whole = job_file(input);
     parse_job(whole, "seed");  // throws if the seed is refused
     std::map<std::string, Bytes> files = unzip(whole, "seed");
     Bytes texts = files["ticket.json"];
@@ -67,6 +85,14 @@ std::vector<Encoded> job_seeds() {
     texts.insert(texts.end(), files["manifest.json"].begin(), files["manifest.json"].end());
     texts.push_back(0);
     texts.insert(texts.end(), files["envelope.json"].begin(), files["envelope.json"].end());
+    return {std::move(whole), std::move(texts)};
+}
+
+}  // namespace
+
+std::vector<Encoded> job_seeds() {
+    auto [whole, texts] = packed(some_job());
+    auto [sawn, sawn_texts] = packed(sawn_job());
     const auto cell = [](const std::string& name) { return read_file(QCHOPPER_SOURCE_DIR "/cells/" + name + ".toml"); };
     std::string small =
         "version = 2\nname = \"test\"\nid = 7\n[margin]\nspoil = 0\n"
@@ -80,6 +106,8 @@ std::vector<Encoded> job_seeds() {
     parse_cell(small, "small");
     return {{"job", "packed", whole},
             {"job", "texts", texts},
+            {"job", "sawn", sawn},
+            {"job", "sawn-texts", sawn_texts},
             {"cell", "foam-1", cell("foam-1")},
             {"cell", "robot", cell("kr120-r2500-pro-rotary")},
             {"cell", "gantry", cell("gantry-3axis")},

@@ -188,6 +188,9 @@ Document document(const ShownCell& shown) {
                  {"tool", {{"number", cell.tool.number}, {"name", cell.tool.name}, {"diameter", cell.tool.diameter}}},
                  {"machine", cell.machine ? machine_json(*cell.machine, cell.margins) : Json()}};
     if (!cell.machine) json["margin"] = margins_json(cell.margins);
+    if (is_any_sawn(cell)) {
+        json["saw"] = {{"accuracy_mm", cell.saw.accuracy}, {"flush_tolerance_mm", cell.saw.flush_tolerance}};
+    }
     if (shown.picture) json["picture"] = shown.picture->file;
     return compose(json);
 }

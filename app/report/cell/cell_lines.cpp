@@ -96,6 +96,10 @@ void add_stock(std::vector<std::string>& text, const Cell& cell) {
                         number(bending_strength(stock)), stock.is_sawn ? "kerf " + number(stock.kerf) : "no"});
     }
     append(text, columns(rows));
+    if (is_any_sawn(cell)) {
+        text.push_back("saw        off its plane by up to " + number(cell.saw.accuracy) +
+                       " mm; a cap is a face of its block within " + number(cell.saw.flush_tolerance) + " mm");
+    }
 }
 
 std::string margins_line(const Margins& margins) {

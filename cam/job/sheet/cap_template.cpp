@@ -64,9 +64,15 @@ void add_scale_bar(CapTemplate& drawing, Point2 at) {
 
 CapTemplate cap_template(const DrawnCap& cap, const std::string& piece) {
     CapTemplate drawing;
-    drawing.sheet = {cap.size.x + 2 * margin, cap.size.y + 2 * margin};
-    const auto moved = [](Point2 p) { return Point2{p.x + margin, p.y + margin}; };
-    for (const std::vector<Point2>& outline : cap.outline) {
+    Rectangle2 drawn;
+    drawn.include({0, 0});
+    drawn.include(cap.size);
+    for (const Point2& corner : cap.block_side) drawn.include(corner);
+    drawing.sheet = {drawn.max.x - drawn.min.x + 2 * margin, drawn.max.y - drawn.min.y + 2 * margin};
+    const auto moved = [&](Point2 p) { return Point2{p.x - drawn.min.x + margin, p.y - drawn.min.y + margin}; };
+    std::vector<std::vector<Point2>> outlines = cap.outline;
+    if (!cap.block_side.empty()) outlines.push_back(cap.block_side);
+    for (const std::vector<Point2>& outline : outlines) {
         drawing.outlines.emplace_back();
         for (const Point2& p : outline) drawing.outlines.back().push_back(moved(p));
     }
@@ -79,6 +85,7 @@ CapTemplate cap_template(const DrawnCap& cap, const std::string& piece) {
     }
     drawing.title =
         "Piece " + piece + ", cut " + std::to_string(cap.cap.cut) + ", seen from outside; towards " + neighbours;
+    if (!cap.block_side.empty()) drawing.title += "; outside: the edges of the block";
     return drawing;
 }
 

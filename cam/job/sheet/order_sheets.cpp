@@ -8,6 +8,7 @@
 
 #include "base/base64.h"
 #include "base/text.h"
+#include "cam/job/glue_faces.h"
 #include "cam/job/sheet/sheet_html.h"
 #include "segment/picture/svg.h"
 
@@ -125,11 +126,13 @@ SheetOfOrder sheet_of(const ReadJob& job, const std::string& file, const std::st
 }
 
 std::string order_sheets(const std::string& order, std::span<const SheetOfOrder> sheets,
-                         std::span<const std::string> without_job) {
-    std::string none;
-    for (const std::string& piece : without_job) none += (none.empty() ? "" : ", ") + piece;
+                         const PiecesWithoutJob& without_job) {
     std::string body = page_begin + ("<h1>" + svg_text("Setup sheets: " + order) + "</h1>\n") + index_of(sheets);
-    if (!none.empty()) body += stop("Without a job: " + none + ".");
+    if (!without_job.others.empty()) body += stop("Without a job: " + list_of_pieces(without_job.others) + ".");
+    if (!without_job.only_sawn.empty()) {
+        body += paragraph("Sawn only, without a job: " + list_of_pieces(without_job.only_sawn) +
+                          ". The saw list, saw-list.html, has them.");
+    }
     body += totals_of(sheets) + page_end;
     for (std::size_t i = 0; i < sheets.size(); ++i) {
         if (sheets[i].page.empty()) continue;

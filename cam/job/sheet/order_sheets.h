@@ -35,8 +35,14 @@ struct SheetOfOrder {
 // `file`: its name; `state`: a word for the index.
 SheetOfOrder sheet_of(const ReadJob& job, const std::string& file, const std::string& state);
 
-// HTML. `order`: what people call it. `without_job`: names of the pieces that have none.
+// Names of the pieces that have none.
+struct PiecesWithoutJob {
+    std::vector<std::string> others;     // they do not fit
+    std::vector<std::string> only_sawn;  // the saw alone makes them
+};
+
+// HTML. `order`: what people call it.
 std::string order_sheets(const std::string& order, std::span<const SheetOfOrder> sheets,
-                         std::span<const std::string> without_job);
+                         const PiecesWithoutJob& without_job);
 
 }  // namespace qchopper

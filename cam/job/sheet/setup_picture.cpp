@@ -11,7 +11,9 @@
 #include <limits>
 #include <utility>
 
+#include "cam/job/glue_faces.h"
 #include "cam/job/sheet/solid_shapes.h"
+#include "cam/job/sheet/touch_points.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {
@@ -65,6 +67,39 @@ std::vector<std::uint8_t> colours_of(const JobInput& input, const TriangleMesh& 
     return colours;
 }
 
+// The piece apart from the caps in glue faces, and those of each such face with the names of its neighbours.
+struct PartedSurface {
+    TriangleMesh rest;
+    std::vector<std::uint8_t> colours;  // per triangle of the rest
+    std::vector<TriangleMesh> caps;     // by `faces`
+    std::vector<GlueFace> faces;
+};
+
+PartedSurface parted(const JobInput& input, const TriangleMesh& lying, const std::vector<std::uint8_t>& colours) {
+    PartedSurface surface;
+    std::vector<JobCap> joined;
+    for (const DrawnCap& drawn : input.caps) joined.push_back(drawn.cap);
+    surface.faces = glue_faces(input.setup, joined);
+    surface.caps.resize(surface.faces.size());
+    surface.rest.points = lying.points;
+    for (TriangleMesh& cap : surface.caps) cap.points = lying.points;
+    for (std::size_t t = 0; t < lying.triangles.size(); ++t) {
+        const auto holds = [&](const GlueFace& face) {
+            return std::binary_search(face.cuts.begin(), face.cuts.end(), cap_of(lying, t));
+        };
+        const auto face = std::find_if(surface.faces.begin(), surface.faces.end(), holds);
+        if (face != surface.faces.end()) {
+            surface.caps[static_cast<std::size_t>(face - surface.faces.begin())].triangles.push_back(
+                lying.triangles[t]);
+            continue;
+        }
+        surface.rest.triangles.push_back(lying.triangles[t]);
+        surface.rest.cap_of.push_back(cap_of(lying, t));
+        surface.colours.push_back(colours[t]);
+    }
+    return surface;
+}
+
 }  // namespace
 
 Rgb surface_colour(SurfaceState state, bool narrow_counts) {
@@ -85,11 +120,20 @@ Rgb surface_colour(SurfaceState state, bool narrow_counts) {
     return bone_colour;
 }
 
-std::array<TouchPoint, 3> touch_points(const Setup& setup) {
-    const Box block = setup.block_box();
-    return {{{"P1", "corner of the block's top at -x, -y", {block.min.x, block.min.y, block.max.z}},
-             {"P2", "corner of the block's top at +x, -y", {block.max.x, block.min.y, block.max.z}},
-             {"P3", "corner of the block's top at -x, +y", {block.min.x, block.max.y, block.max.z}}}};
+Rgb glue_colour(BlockFace face) {
+    switch (face) {
+        case BlockFace::minus_x:
+            return {0, 0, 35};
+        case BlockFace::plus_x:
+            return {140, 255, 100};
+        case BlockFace::minus_y:
+            return {45, 90, 165};
+        case BlockFace::plus_y:
+            return {190, 120, 200};
+        case BlockFace::top:
+            return {0, 215, 80};
+    }
+    return base_colour;
 }
 
 SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
@@ -112,10 +156,16 @@ SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
     const TriangleMesh bars = bars_of(setup, 0.0045 * diagonal);
 
     std::vector<ColouredMesh> meshes;
-    ColouredMesh piece{&lying, bone_colour, {}};
+    PartedSurface surface;
+    if (!setup.flush_caps.empty()) surface = parted(input, lying, colours);
+    ColouredMesh piece{surface.faces.empty() ? &lying : &surface.rest, bone_colour, {}};
     piece.palette = palette;
-    piece.colour_of = colours;
+    piece.colour_of = surface.faces.empty() ? colours : surface.colours;
     meshes.push_back(piece);
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const GlueFace& face = surface.faces[f];
+        meshes.push_back({&surface.caps[f], glue_colour(face.face), {}, list_of_pieces(face.neighbours)});
+    }
     meshes.push_back({&bars, bar_colour, {}});
     for (std::size_t i = 0; i < named.size(); ++i) {
         meshes.push_back({&named[i].first, i < arrows ? arrow_colour : touch_colour, {}, named[i].second});

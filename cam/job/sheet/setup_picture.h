@@ -1,12 +1,10 @@
 // Draws the piece in its block as it will be milled, from two opposite sides, for the setup sheet.
 //
-// Shown are the surface in colours by what becomes of it, the block and its spoil layer as thin bars, an arrow for each
-// direction with its number in the sheet, and the points to touch off. Same input, same bytes, whatever the number of
-// threads (tests/cam/job/sheet/setup_picture_test.cpp).
+// Shown are the surface in colours by what becomes of it, glue faces of the block with the names of their neighbours,
+// the block and its spoil layer as thin bars, an arrow for each direction with its number in the sheet, and the points
+// to touch off. Same input, same bytes, whatever the number of threads (tests/cam/job/sheet/setup_picture_test.cpp).
 
 #pragma once
-
-#include <array>
 
 #include "base/files/file.h"
 #include "cam/job/job.h"
@@ -28,15 +26,9 @@ constexpr int setup_picture_height = 675;
 Rgb surface_colour(SurfaceState state, bool narrow_counts);
 constexpr Rgb base_colour{130, 134, 140};  // of the base, which is left out of all shares
 
-// A corner of the block that the operator touches off with the tool tip.
-struct TouchPoint {
-    const char* name = "";
-    const char* where = "";
-    Vec3 at;  // mm, setup coordinates
-};
-
-// Three corners of the block's top: the first two lie along x, the third gives the side of y.
-std::array<TouchPoint, 3> touch_points(const Setup& setup);
+// Of a face of the block that is a glue face, in colours that differ from those of the surface for colour-blind eyes
+// too.
+Rgb glue_colour(BlockFace face);
 
 // `lying` is the piece in setup coordinates, its triangles in the order of the piece's.
 SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying);

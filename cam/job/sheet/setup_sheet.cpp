@@ -4,13 +4,14 @@
 #include "cam/job/sheet/setup_sheet.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "base/text.h"
+#include "cam/job/glue_faces.h"
 #include "cam/job/job_program.h"
+#include "cam/job/sheet/glue_section.h"
 #include "cam/job/sheet/holding_section.h"
+#include "cam/job/sheet/place_section.h"
 #include "cam/job/sheet/setup_picture.h"
 #include "cam/job/sheet/sheet_details.h"
 #include "cam/job/sheet/sheet_html.h"
@@ -73,6 +74,7 @@ std::string keys_of(const JobInput& input) {
         if (access.ignored_mm2 > 0) add_state(SurfaceState::ignored, "ignored");
     }
     if (input.setup.base) add(base_colour, "base");
+    if (const std::string glued = glue_keys(input); !glued.empty()) html += (html.empty() ? "" : ", ") + glued;
     if (html.empty()) return {};
     return "<p>" + html + (input.states.empty() ? "" : "; what the words mean is said in details.html") + ".</p>\n";
 }
@@ -92,73 +94,21 @@ std::string block_section(const JobInput& input) {
     const StockBlock& block = input.setup.block;
     std::string html = paragraph("Take block \"" + stock.name + "\" (" + to_word(stock.material) + "), " +
                                  size_text(stock.size) + " mm.");
-    if (block.is_sawn && block.offcuts.empty()) {
+    if (block.is_sawn && !is_sawn_down(input.setup)) {
         html += paragraph("Not sawn: what could be sawn off is no wider than the saw cut. It stands as " +
                           size_text(block.size) + " mm along x, y and z.");
     } else if (block.is_sawn) {
-        html += paragraph("Saw it down to " + size_text(block.size) + " mm; a saw cut takes " +
-                          significant(stock.kerf, 6) + " mm of foam.");
+        html += paragraph("Saw it down to " + size_text(block.size, input.setup.flush_faces()) +
+                          " mm; a saw cut takes " + significant(stock.kerf, 6) + " mm of foam.");
         std::string offcuts;
         for (const Vec3& offcut : block.offcuts) offcuts += (offcuts.empty() ? "" : ", ") + size_text(offcut);
-        html += paragraph("Offcuts that are left: " + offcuts + " mm.");
+        html += paragraph("Offcuts that are left: " + (offcuts.empty() ? "none." : offcuts + " mm."));
     } else if (block.is_turned) {
         html += paragraph("Not sawn. It stands turned by a quarter about the vertical from how the list gives it.");
     } else {
         html += paragraph("Not sawn. It stands as the list gives it.");
     }
-    return section("1. Block", html);
-}
-
-// The sides of the block lie along the axes of the cell where it is not turned.
-std::string where_it_stands(const Cell& cell, const Setup& setup) {
-    const BlockPlacement& place = setup.placement;
-    const std::string size = size_text(setup.block.size) + " mm along x, y and z";
-    const bool is_rotary = cell.machine && cell.machine->rotary_table;
-    const std::string axes = is_rotary ? "the rotary table at 0 degrees" : "the cell";
-    if (place.x == 0 && place.y == 0 && place.turn == 0) {
-        return "Stand the block in the middle of the table, its sides along the axes of " + axes + ": " + size + ".";
-    }
-    std::string text = "Stand the block, " + size + ", with its middle " + fixed(place.x, 1) + " mm along x and " +
-                       fixed(place.y, 1) + " mm along y from the middle of the table";
-    if (place.turn == 0) return text + ", its sides along the axes of " + axes + ".";
-    return text + ", its x turned by " + fixed(place.turn * 180 / std::numbers::pi, 1) + " degrees from that of " +
-           axes + ", counted from x towards y.";
-}
-
-std::string place_section(const JobInput& input) {
-    const Setup& setup = input.setup;
-    const Vec3 block = setup.block.size;
-    const Vec3 piece = setup.box.size();
-    const double beside_x = (block.x - piece.x) / 2;
-    const double beside_y = (block.y - piece.y) / 2;
-    std::string html = paragraph(where_it_stands(input.cell, setup));
-    html += paragraph("How exactly it must lie: the foam around the piece is what the block may be off, " +
-                      fixed(beside_x, 1) + " mm along x and " + fixed(beside_y, 1) +
-                      " mm along y. Further off, the piece sticks out of the block. A turn by 1 degree moves the "
-                      "corners of the block by " +
-                      fixed(std::hypot(block.x, block.y) / 2 * std::sin(std::numbers::pi / 180), 1) +
-                      " mm. The underside must lie flat on the table.");
-    const Pose in_cell =
-        setup_in_cell(input.cell, setup.spoil, {setup.placement.x, setup.placement.y, setup.placement.turn, {}}, 0);
-    const bool is_rotary = input.cell.machine && input.cell.machine->rotary_table;
-    html += paragraph(
-        "Base frame of the program: its origin lies on the vertical through the middle of the block, at the height of "
-        "the piece's base, " +
-        fixed(setup.spoil, 1) +
-        " mm above the table, its axes along the sides of the block, z up. In the cell it is at (" +
-        fixed(in_cell.shift.x, 1) + ", " + fixed(in_cell.shift.y, 1) + ", " + fixed(in_cell.shift.z, 1) + ")" +
-        (is_rotary ? " with the rotary table at 0 degrees." : "."));
-    html += paragraph(
-        "Touch off three corners with the tool tip: P1 and P2 give the direction of x, P3 the side of y. If one is "
-        "off its place, move the block, or correct the base frame by as much.");
-    Rows rows{{word("point"), word("where"), right("x"), right("y"), right("z"), right("x in the cell"),
-               right("y in the cell"), right("z in the cell")}};
-    for (const TouchPoint& point : touch_points(setup)) {
-        const Vec3 at = apply(in_cell, point.at);
-        rows.push_back({word(point.name), word(point.where), number(point.at.x, 1), number(point.at.y, 1),
-                        number(point.at.z, 1), number(at.x, 1), number(at.y, 1), number(at.z, 1)});
-    }
-    return section("2. Place of the block and base frame", html + table(rows));
+    return section("1. Block", html + glue_face_section(input));
 }
 
 // Of the cell's tools those that the program takes, in its order; without a program the one that the ticket names.
@@ -253,10 +203,12 @@ std::string parting(const Setup& setup) {
                      (setup.base ? "" : " The piece has no flat base: finish there by hand."));
 }
 
+// Those that are left: of sawn sides the block has its holes already (glue_face_section).
 std::string dowel_holes(const JobInput& input) {
     std::size_t robot = 0;
     std::string by_hand;  // numbers and templates
     for (const DrawnCap& drawn : input.caps) {
+        if (is_drilled_before(input.setup, drawn.cap)) continue;
         std::string numbers;
         for (const JobHole& hole : holes_of({drawn.cap})) {
             if (hole.by_robot) ++robot;

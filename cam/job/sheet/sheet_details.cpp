@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cam/job/manifest.h"
 #include "cam/job/sheet/envelope_section.h"
+#include "cam/job/sheet/glue_section.h"
 #include "cam/job/sheet/holding_section.h"
 #include "cam/job/sheet/program_section.h"
 #include "cam/job/sheet/setup_picture.h"
@@ -29,13 +30,15 @@ std::string piece_section(const Setup& setup) {
     const Vec3 size = setup.box.size();
     std::string base = "Base " + std::to_string(setup.base_number) + ": " + setup.base_description;
     if (setup.base) base += ", " + fixed(setup.base_mm2 / 100, 1) + " cm2";
-    return section("Piece", paragraph("It lies in the middle of the block, " + fixed(size.x, 1) + " mm along x, " +
-                                      fixed(size.y, 1) + " mm along y, " + fixed(size.z, 1) +
-                                      " mm high, its base at z = 0. preview.glb shows it as it lies.") +
-                                paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) +
-                                          ", " + fixed(setup.up.z, 4) + ") of the scan.") +
-                                paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
-                                          percent(setup.undercut_by_count, 1) + " of the triangles."));
+    const std::string where = setup.flush_caps.empty() ? "It lies in the middle of the block, "
+                                                       : "Its caps lie in the glue faces of the block, it is ";
+    return section("Piece",
+                   paragraph(where + fixed(size.x, 1) + " mm along x, " + fixed(size.y, 1) + " mm along y, " +
+                             fixed(size.z, 1) + " mm high, its base at z = 0. preview.glb shows it as it lies.") +
+                       paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) + ", " +
+                                 fixed(setup.up.z, 4) + ") of the scan.") +
+                       paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
+                                 percent(setup.undercut_by_count, 1) + " of the triangles."));
 }
 
 std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const ToolOrientation& orientation) {
@@ -97,6 +100,9 @@ std::string access_section(const JobInput& input) {
                     input.max_unreachable < 1 ? number(100 * input.max_unreachable, 2) : right("none"), word("")});
     std::string html = table(rows) + besides + "<p>" +
                        key(svg_colour(base_colour), "the base, which is left out of all shares").html + "</p>\n";
+    if (const std::string glued = glue_keys(input); !glued.empty()) {
+        html += "<p>" + glued + svg_text(": sawn, and left out of all shares") + "</p>\n";
+    }
     if (input.states.empty()) {
         html += paragraph("The pictures show the piece in one colour: which triangles are reached was not computed.");
     }

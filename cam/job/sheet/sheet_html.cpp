@@ -81,6 +81,13 @@ std::string size_text(Vec3 size) {
     return length(size.x) + " x " + length(size.y) + " x " + length(size.z);
 }
 
+std::string size_text(Vec3 size, const FlushFaces& flush) {
+    const auto length = [&](int axis, bool is_flush) {
+        return is_flush ? fixed(size[axis], 1) : significant(std::round(10 * size[axis]) / 10, 8);
+    };
+    return length(0, flush[0] || flush[1]) + " x " + length(1, flush[2] || flush[3]) + " x " + length(2, flush[4]);
+}
+
 std::string percent(double share, int decimals) {
     return fixed(100 * share, decimals) + " %";
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "cam/setup/block.h"
 
 namespace qchopper::sheet {
 
@@ -29,6 +30,8 @@ Entry key(const std::string& colour, const std::string& name);
 
 // "100 x 60.5 x 50": to tenths of a mm.
 std::string size_text(Vec3 size);
+// The size of a block: "100.0 x 60 x 50.0", tenths along axes with a glue face.
+std::string size_text(Vec3 size, const FlushFaces& flush);
 std::string percent(double share, int decimals = 2);
 
 // The first row is the head; its entries stand as those of the second. Precondition: there is a row.

@@ -20,6 +20,7 @@ namespace {
 constexpr double upright = 0.999;    // cosine; a direction this steep mills down to the base all around
 constexpr double faced = 0.17;       // sine of 10 degrees; a side that is nearly parallel to the tool is not begun from
 constexpr double highest_tip = 1e6;  // mm; what the holder allows nowhere is higher
+constexpr double near_flush_face = 0.2;  // mm; caps and the sizes of sawn blocks are to tenths
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
 double number(std::size_t count) {
@@ -300,13 +301,38 @@ void fill_with_base(HeightField& map, const Pose& piece_in_setup) {
     }
 }
 
-// One region for each connected part of the CL surface.
+// Where the surface that the map shows is a cap that is a sawn face of the block.
+CellMask shown_flush_caps(const HeightField& map, const Setup& setup) {
+    CellMask shown(map.height.size(), 0);
+    if (setup.flush_caps.empty()) return shown;
+    const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_field);
+    const Box block = setup.block_box();
+    const FlushFaces flush = setup.flush_faces();
+    for (std::size_t i = 0; i < map.height.size(); ++i) {
+        if (map.height[i] == HeightField::nothing) continue;
+        const Vec3 p =
+            apply(map_in_setup, {map.cell * (number(i % map.columns) + 0.5), map.cell * (number(i / map.columns) + 0.5),
+                                 static_cast<double>(map.height[i])});
+        const std::array<double, block_faces> away{p.x - block.min.x, block.max.x - p.x, p.y - block.min.y,
+                                                   block.max.y - p.y, block.max.z - p.z};
+        for (std::size_t f = 0; f < block_faces; ++f) {
+            if (flush[f] && away[f] < near_flush_face) shown[i] = 1;
+        }
+    }
+    return shown;
+}
+
+// One region for each connected part of the CL surface. No tip stands on a cap that is sawn.
 void add_tips(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis_in_piece, const ToolBody& tool,
               const ClHeights& heights, const PoseOptions& options, OrientationPoses& poses) {
     HeightField map =
         height_field(mesh, tool_axis_in_piece, options.map_cell > 0 ? options.map_cell : options.step / 8);
     if (heights.tool_axis.z > upright) fill_with_base(map, setup.piece_in_setup);
+    const CellMask sawn = shown_flush_caps(map, setup);
     raise_to_holder_clearance(map, tool, setup.piece_in_setup);
+    for (std::size_t i = 0; i < sawn.size(); ++i) {
+        if (sawn[i] != 0) map.height[i] = HeightField::nothing;
+    }
     const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_field);
     for (PoseRegion& region : ClSurface(map, map_in_setup, heights, options.step).regions(options)) {
         poses.regions.push_back(std::move(region));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cam/setup/holder_clearance.h"
+#include "cam/setup/placement/stated_angle.h"
 
 namespace qchopper {
 namespace {
@@ -30,6 +31,8 @@ class ReachabilityReporter {
         MachineReachability reachability;
         reachability.is_arm_checked = true;
         reachability.placement = place_.placement;
+        reachability.placement.turn = stated_angle(place_.placement.turn);
+        for (double& angle : reachability.placement.table_angles) angle = stated_angle(angle);
         add_table(reachability);
         for (std::size_t d = 0; d < orientations_.size(); ++d) {
             for (std::size_t r = 0; r < orientations_[d].regions.size(); ++r) add_region(d, r, reachability);

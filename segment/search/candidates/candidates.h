@@ -30,6 +30,8 @@ struct CandidateOptions {
     std::optional<SymmetryPlane> symmetry;  // that of the uncut scan: a candidate, and so are the mirror images of cuts
     std::vector<Plane> given;               // the operator's, canonical: candidates of every piece
     NoCut no_cut;                           // no candidate goes through this surface
+    // Whether planes along the caps of a piece are candidates of it (cap_frame.h), because blocks end in caps.
+    bool along_caps = false;
     bool operator==(const CandidateOptions&) const = default;
 };
 

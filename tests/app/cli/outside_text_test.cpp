@@ -9,6 +9,7 @@
 #include "app/cli/terminal.h"
 #include "app/report/cell/cell_control_report.h"
 #include "app/report/cell/dispatch_report.h"
+#include "app/report/document.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -44,7 +45,7 @@ TEST(OutsideText, OfAnyLineIsEscapedByTheTerminal) {
     Terminal terminal(false);
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
-    terminal.show({std::string("a ") + hostile}, "");
+    terminal.show({std::string("a ") + hostile}, compose({}));
     terminal.warn(hostile);
     terminal.message(hostile);
     const std::string out = ::testing::internal::GetCapturedStdout();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "app/jobs/piece_program.h"
 #include "base/error.h"
@@ -73,6 +74,7 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     made.verdict = judged(made.job, made.cell);
     EXPECT_EQ(made.verdict.figures, programs.parts.front().proof.figures) << "verify repeats the proof of prepare";
     EXPECT_EQ(made.verdict.findings, programs.parts.front().proof.findings);
+    made.input = std::move(input);
     return made;
 }
 

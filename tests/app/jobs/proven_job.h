@@ -14,6 +14,7 @@ namespace qchopper {
 
 struct ProvenJob {
     CellFile cell;
+    JobInput input;      // from which the job was written
     ReadJob job;         // as read back from its bytes
     JobVerdict verdict;  // as prepare writes it, but for the version
 };

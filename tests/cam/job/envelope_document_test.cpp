@@ -86,7 +86,7 @@ TEST(EnvelopeDocument, RefusesAVerdictThatItsMarginsContradict) {
               std::string::npos);
     EXPECT_NE(refusal(forged([](ordered_json& j) { j["checks"] = ordered_json::array(); })).find("arm_checked"),
               std::string::npos);
-    EXPECT_NE(refusal(forged([](ordered_json& j) { j["schema"] = 2; })).find("schema"), std::string::npos);
+    EXPECT_NE(refusal(forged([](ordered_json& j) { j["schema"] = 3; })).find("schema"), std::string::npos);
     EXPECT_NE(refusal(forged([](ordered_json& j) { j.erase("placement"); })).find("placement"), std::string::npos);
 }
 

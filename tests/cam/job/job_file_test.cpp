@@ -51,15 +51,20 @@ Bytes small_job_file(const JobInput& input) {
     return agreeing(std::move(files));
 }
 
+using Change = std::function<void(nlohmann::ordered_json&)>;
+
 // The job file with one of its files changed; if it is not the manifest, the manifest is made to agree.
-Bytes forged(const std::string& name, const std::function<void(nlohmann::ordered_json&)>& change) {
-    static const std::map<std::string, Bytes> sound = unzip(small_job_file(tilting_job(3)), "AB.qjob");
-    std::map<std::string, Bytes> files = sound;
+Bytes forged(std::map<std::string, Bytes> files, const std::string& name, const Change& change) {
     auto json = nlohmann::ordered_json::parse(text_of(files[name]));
     change(json);
     const std::string text = json.dump(2) + "\n";
     files[name] = {text.begin(), text.end()};
     return name == "manifest.json" ? zip(files) : agreeing(std::move(files));
+}
+
+Bytes forged(const std::string& name, const Change& change) {
+    static const std::map<std::string, Bytes> sound = unzip(small_job_file(tilting_job(3)), "AB.qjob");
+    return forged(sound, name, change);
 }
 
 TEST(Job, SameInputSameBytesWhateverTimeAndTimeZone) {
@@ -116,7 +121,7 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
         {3, "without a cap, lying on its side", AccessMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
     EXPECT_EQ(job.alternatives, others);
     const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
-    EXPECT_EQ(manifest["schema"], 7);
+    EXPECT_EQ(manifest["schema"], 8);
     EXPECT_EQ(manifest["state"], "unreachable");
     EXPECT_EQ(manifest["setup"]["reach"]["method"], "mapped");
     EXPECT_EQ(manifest["setup"]["reach"]["unreachable_share"], 0.05);
@@ -208,10 +213,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 7," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 8," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 7"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 8"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -276,7 +281,7 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) {
              j["setup"]["reach"]["orientations"][1]["tool_axis"] = {1, 2, 3};
          },
-         "out is not of length 1"},
+         "tool_axis is not of length 1"},
         {[](Json& j) { j["setup"]["reach"]["further"].erase("tilt_deg"); }, "tilt_deg is missing"},
         {[](Json& j) { j["setup"]["reach"].erase("further"); }, "further is missing"},
         {[](Json& j) { j["setup"].erase("base_number"); }, "base_number is missing"},
@@ -302,6 +307,56 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     };
     for (const auto& [change, word] : cases) {
         const std::string why = refusal(forged("manifest.json", change));
+        EXPECT_NE(why.find(word), std::string::npos) << word << " <- " << why;
+    }
+}
+
+TEST(Job, FacesOfTheBlockThatAreSawnAreReadBack) {
+    const JobInput input = sawn_job();
+    ASSERT_TRUE(input.setup.base);
+    ASSERT_EQ(input.setup.flush_caps.size(), 1U);
+    EXPECT_GT(input.setup.milled_caps_mm2, 0);
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(job.setup, input.setup);
+    ASSERT_EQ(job.foam_at_faces.size(), block_faces);
+    for (std::size_t f = 0; f < block_faces; ++f) {
+        const bool is_flush = f == static_cast<std::size_t>(input.setup.flush_caps[0].face);
+        EXPECT_NEAR(job.foam_at_faces[f], is_flush ? 0 : job.foam_at_faces[f], 0.05) << f;
+        EXPECT_TRUE(is_flush || job.foam_at_faces[f] > 1) << f;
+    }
+    EXPECT_TRUE(parse_job(job_file(some_job()), "AB.qjob").foam_at_faces.empty()) << "where nothing is sawn";
+}
+
+TEST(Job, FlushCapsThatAreNoneOfThePieceAreRefused) {
+    using Json = nlohmann::ordered_json;
+    const JobInput input = sawn_job();
+    const std::map<std::string, Bytes> sound = unzip(small_job_file(input), "AB.qjob");
+    const auto own = static_cast<std::size_t>(input.setup.flush_caps.at(0).face);
+    const std::size_t other = own ^ 1U;
+    ASSERT_LT(other, 4U) << "a side";
+    const std::string other_face = names_of(BlockFace{})(static_cast<BlockFace>(other));
+    const std::vector<std::pair<Change, std::string>> cases{
+        {[](Json& j) { j["setup"]["flush_caps"][0]["cut"] = 77; }, "flush_caps name cut 77, which has no such cap"},
+        {[&](Json& j) { j["setup"]["flush_caps"][0]["cut"] = *input.setup.base; }, "which has no such cap"},
+        {[](Json& j) { j["setup"]["flush_caps"][0]["cut"] = -1; }, "cut"},
+        {[](Json& j) { j["setup"]["flush_caps"][0]["face"] = "underside"; }, "face"},
+        {[](Json& j) { j["setup"]["flush_caps"][0]["area_mm2"] = -1; }, "area_mm2"},
+        {[](Json& j) { j["setup"]["flush_caps"][0].erase("area_mm2"); }, "area_mm2 is missing"},
+        {[](Json& j) { j["setup"]["flush_caps"].push_back(j["setup"]["flush_caps"][0]); }, "flush_caps"},
+        {[](Json& j) { j["setup"].erase("flush_caps"); }, "foam_at_faces_mm contradicts flush_caps"},
+        {[](Json& j) { j["stock"].erase("foam_at_faces_mm"); }, "foam_at_faces_mm contradicts flush_caps"},
+        {[](Json& j) { j["stock"]["foam_at_faces_mm"].erase(0); }, "foam_at_faces_mm is not one number for each face"},
+        {[&](Json& j) { std::swap(j["stock"]["foam_at_faces_mm"][own], j["stock"]["foam_at_faces_mm"][other]); },
+         "foam_at_faces_mm contradicts block, box and flush_caps"},
+        {[](Json& j) { j["stock"]["foam_at_faces_mm"][4] = 1; },
+         "foam_at_faces_mm contradicts block, box and flush_caps"},
+        {[&](Json& j) { j["setup"]["flush_caps"][0]["face"] = other_face; },
+         "foam_at_faces_mm contradicts block, box and flush_caps"},
+        {[](Json& j) { j["setup"]["milled_caps_mm2"] = -1; }, "milled_caps_mm2"},
+    };
+    EXPECT_EQ(refusal(forged(sound, "manifest.json", [](Json&) {})), "taken");
+    for (const auto& [change, word] : cases) {
+        const std::string why = refusal(forged(sound, "manifest.json", change));
         EXPECT_NE(why.find(word), std::string::npos) << word << " <- " << why;
     }
 }

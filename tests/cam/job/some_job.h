@@ -100,6 +100,22 @@ inline JobInput tilting_job(int rings = 8) {
     return input;
 }
 
+// From a block that is sawn: caps at right angles, of which one is the base and the other a face of the block, and one
+// askew, which is milled.
+inline JobInput sawn_job() {
+    JobInput input = some_job(16);
+    input.piece = cut_piece(input.piece, {{1, 0, 0}, 97}, 5)->pieces.at(0);
+    input.piece = cut_piece(input.piece, {normalized({0.5, 0.8, 0.2}), 64}, 6)->pieces.at(0);
+    input.piece.name = "AB";
+    for (Stock& stock : input.cell.stock) {
+        stock.is_sawn = true;
+        stock.kerf = 3;
+    }
+    input.setup = choose_setup(input.piece, input.cell).setups.front();
+    input.stock_fit = check_stock_fit(input.setup, input.cell);
+    return input;
+}
+
 // In a ready cell with an arm: its block is placed, and every pose of its milling is held.
 inline const JobInput& placed_job() {
     static const JobInput job = [] {

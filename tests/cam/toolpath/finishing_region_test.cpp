@@ -63,7 +63,7 @@ TEST(RestMaterial, ASecondTimeNothingIsLeftToDo) {
     const TriangleMesh mesh = bumpy(40, 20, 20, 2);
     const auto setup = setup_of(mesh, 8);
     const HeightField closing = closing_of(setup, mesh, 0, 12);
-    RestMaterial surface(mesh, std::nullopt);
+    RestMaterial surface(mesh, qchopper::Setup());
     EXPECT_EQ(surface.share_within(0), 0);
     EXPECT_GT(cells_of(surface.take(closing, near, 1)), 5000U);
     EXPECT_EQ(cells_of(surface.take(closing, near, 1)), 0U);
@@ -78,7 +78,7 @@ TEST(RestMaterial, AnotherDirectionFinishesWhatTheFirstDoesNotSee) {
         if (p.z > 59) p.x += 20;
     }
     const auto setup = setup_of(leaning, 30, 50);
-    RestMaterial surface(leaning, std::nullopt);
+    RestMaterial surface(leaning, qchopper::Setup());
     const FinishingRegion first = surface.take(closing_of(setup, leaning, 0, 12), near, 0);
     const double by_first = surface.share_within(0);
     const HeightField second_closing = closing_of(setup, leaning, 1, 12);
@@ -103,7 +103,7 @@ TEST(RestMaterial, WhatIsGivenBackIsLeftToTheNextTake) {
         const double x = (static_cast<double>(i % more.columns) + 0.5) * cell;
         if (x > 0.5 * cell * static_cast<double>(more.columns)) more.height[i] += 30;
     }
-    RestMaterial surface(mesh, std::nullopt);
+    RestMaterial surface(mesh, qchopper::Setup());
     EXPECT_EQ(surface.takes(), 0U);
     const std::size_t all = cells_of(surface.take(closing, near, 0));
     const double share = surface.share_within(0);
@@ -127,7 +127,7 @@ TEST(RestMaterial, AFinerToolGoesOnlyWhereMoreIsLeft) {
         p.z = square > 0.5 ? 20 - std::sqrt(square) : 20;
     }
     const auto setup = setup_of(mesh, 10);
-    RestMaterial surface(mesh, std::nullopt);
+    RestMaterial surface(mesh, qchopper::Setup());
     surface.take(closing_of(setup, mesh, 0, 12), near, 0);
     const HeightField fine = closing_of(setup, mesh, 0, 6);
     const FinishingRegion region = surface.take(fine, near, 0, 0.25);
@@ -149,7 +149,7 @@ TEST(RestMaterial, TheBaseAndWhatIsIgnoredAreLeftOut) {
     const auto setup = setup_of(mesh, 8);
     const HeightField closing = closing_of(setup, mesh, 0, 12);
     mesh.ignored.assign(mesh.triangles.size(), 1);
-    RestMaterial none(mesh, std::nullopt);
+    RestMaterial none(mesh, qchopper::Setup());
     EXPECT_EQ(cells_of(none.take(closing, near, 1)), 0U);
     EXPECT_EQ(none.share_within(0), 1);
 }
@@ -158,10 +158,10 @@ TEST(RestMaterial, DoesNotDependOnThreads) {
     const TriangleMesh mesh = bumpy(40, 40, 40, 6);
     const auto setup = setup_of(mesh, 8);
     const HeightField closing = closing_of(setup, mesh, 0, 12);
-    const FinishingRegion region = RestMaterial(mesh, std::nullopt).take(closing, near, 1);
+    const FinishingRegion region = RestMaterial(mesh, qchopper::Setup()).take(closing, near, 1);
     for (const std::size_t threads : {1, 2, 4}) {
         const ThreadLimit limit(threads);
-        EXPECT_EQ(RestMaterial(mesh, std::nullopt).take(closing, near, 1), region);
+        EXPECT_EQ(RestMaterial(mesh, qchopper::Setup()).take(closing, near, 1), region);
     }
 }
 
@@ -193,7 +193,7 @@ TEST(FinishingRegion, TheFloorBand) {
     const auto setup = setup_of(mesh, 30);
     const HeightField target = piece_height_field(setup, mesh, 0, {cell, 0, 0});
     FinishingRegion region(target.height.size(), not_finished);
-    add_floor_band(region, target, 12);
+    add_floor_band(region, target, 12, qchopper::Setup());
     const auto at = [&](double x, double y) {
         const Vec3 p = apply(target.piece_in_field, {x, y, 0});
         return region[static_cast<std::size_t>(p.y / cell) * target.columns + static_cast<std::size_t>(p.x / cell)];

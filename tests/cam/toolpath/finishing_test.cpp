@@ -62,7 +62,7 @@ struct Finished {
         target = piece_height_field(setup, mesh, orientation, {cell, -6, 0});
         tip = cl_surface(target, tool);
         closing = remaining_surface(tip, tool);
-        RestMaterial surface(mesh, std::nullopt);
+        RestMaterial surface(mesh, qchopper::Setup());
         const double as_none = near.value_or(0.5 * options.scallop + 0.75 * cell);
         passes = finishing_passes(tip, tool, surface.take(closing, as_none, 2), options);
         HeightField stock = target;
@@ -115,7 +115,7 @@ struct FromWalls {
         const HeightField target = piece_height_field(setup, mesh, 0, {wide_cell, -6, 0});
         const HeightField tip = cl_surface(target, tool, border);
         const ToolDilation over_target(target, tool, border);
-        RestMaterial surface(mesh, std::nullopt);
+        RestMaterial surface(mesh, qchopper::Setup());
         FinishingOptions options;
         if (knows_tool) options.tool = &over_target;
         for (const Pass& pass :
@@ -267,9 +267,9 @@ TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
     const CuttingTool tool = ball_tool(12);
     const HeightField target = piece_height_field(setup, mesh, 0, {cell, -6, 0});
     const HeightField tip = cl_surface(target, tool);
-    const FinishingRegion region = RestMaterial(mesh, std::nullopt).take(remaining_surface(tip, tool), 0.5, 3);
+    const FinishingRegion region = RestMaterial(mesh, qchopper::Setup()).take(remaining_surface(tip, tool), 0.5, 3);
     FinishingRegion floor(region.size(), not_finished);
-    add_floor_band(floor, target, 12);
+    add_floor_band(floor, target, 12, qchopper::Setup());
     FinishingOptions options;
     options.floor = &floor;
     const double floor_z = setup_to_field(setup, target, {0, 0, -6}).z;

@@ -49,7 +49,7 @@ WrittenChunk circles(std::size_t orientation, Vec3 tool_axis, double last_angle,
 BoxJob ball_job(bool is_tilted) {
     BoxJob job = box_job("kr60-ha");
     job.target = shapes::ball(centre, radius, 60);
-    job.is_base.clear();
+    job.is_unmilled.clear();
     job.job.rounding = 0.2;
     job.job.chunks = {circles(0, {0, 0, 1}, 0.5 * std::numbers::pi, -26)};
     if (!is_tilted) return job;

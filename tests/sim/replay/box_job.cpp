@@ -60,10 +60,12 @@ ReplayScene BoxJob::scene() const {
             job.orientations,
             job.orientations.size(),
             chunks_of(job),
-            {{-55, -40, -spoil}, {55, 40, tall + 5}},
+            block,
             spoil,
             &target,
-            is_base,
+            is_unmilled,
+            caps,
+            0.1,
             0.25,
             cell.machine->rotary_table ? job.orientations[0].table_angle : 0};
 }
@@ -72,14 +74,26 @@ BoxJob box_job(const std::string& cell_name) {
     BoxJob made{read_cell(std::string(QCHOPPER_SOURCE_DIR) + "/cells/" + cell_name + ".toml"),
                 shapes::box(low, high, 8),
                 {},
+                {},
+                {{-55, -40, -spoil}, {55, 40, tall + 5}},
                 {}};
     for (std::size_t t = 0; t < made.target.triangles.size(); ++t) {
-        made.is_base.push_back(area_vector(made.target, t).z < 0);
+        made.is_unmilled.push_back(area_vector(made.target, t).z < 0);
     }
     made.cell.machine->tools[1].flute_length = flute;
     const double angle = made.cell.machine->rotary_table ? 0.5 : 0;
     made.job.orientations.push_back({{0, 0, 1}, angle, on_table(made.cell, spoil, angle)});
     made.job.chunks = {top_chunk(), side_chunk()};
+    return made;
+}
+
+BoxJob sawn_box_job(const std::string& cell_name) {
+    BoxJob made = box_job(cell_name);
+    made.block.max.x = high.x;
+    made.caps = {{1, high, {1, 0, 0}, 1}, {2, low, {-1, 0, 0}, std::nullopt}};
+    for (std::size_t t = 0; t < made.target.triangles.size(); ++t) {
+        if (area_vector(made.target, t).x > 0) made.is_unmilled[t] = true;
+    }
     return made;
 }
 

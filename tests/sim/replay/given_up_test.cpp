@@ -44,8 +44,8 @@ struct Bar {
         scene.block = stock_model.block();
         scene.target = &target;
         for (std::size_t t = 0; t < target.triangles.size(); ++t) {
-            scene.is_base.push_back(area_vector(target, static_cast<std::uint32_t>(t)).z < 0 &&
-                                    corners_of(target, static_cast<std::uint32_t>(t))[0].z == 0);
+            scene.is_unmilled.push_back(area_vector(target, static_cast<std::uint32_t>(t)).z < 0 &&
+                                        corners_of(target, static_cast<std::uint32_t>(t))[0].z == 0);
         }
         const Cutter flat = cutter_of(cell.machine->tools[1]);
         for (double y = -20; y < length + 20; y += 8) stock_model.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});

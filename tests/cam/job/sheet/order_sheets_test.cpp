@@ -62,16 +62,28 @@ TEST(OrderSheets, HasAnIndexWithTotalsAndEverySheetOnce) {
     rest.part.number = 2;
     rest.page = "<p>the second sheet of B</p>\n";
     const std::vector<SheetOfOrder> sheets{a, b, rest};
-    const std::vector<std::string> without{"C", "D"};
+    const PiecesWithoutJob without{{"C", "D"}, {"E"}};
     const std::string html = order_sheets("skull & co.ply", sheets, without);
-    for (const char* text :
-         {"<h1>Setup sheets: skull &amp; co.ply</h1>", "<a href=\"#sheet-1\">A</a>",
-          "<a href=\"#sheet-2\">B, part 1 of 2</a>", "<a href=\"#sheet-3\">B, part 2 of 2</a>", "id=\"sheet-3\"",
-          "Without a job: C, D.", "the sheet of A", "the sheet of B", "the second sheet of B", "B.p2.qjob",
-          "<td>pieces with a job</td><td>2</td>", "<td>jobs</td><td>3</td>",
-          "<td>time, without setting up</td><td>3 h 00 min</td>", "<td>blocks &quot;flat&quot;</td><td>1</td>",
-          "<td>blocks &quot;tall &lt;x&gt;&quot;</td><td>1</td>", "<td>tools</td><td>1, 3, 7</td>",
-          "<td>foam to take off by hand</td><td>3.0 cm3</td>", "<td>holes to drill by hand</td><td>4</td>", "1.23"}) {
+    for (const char* text : {"<h1>Setup sheets: skull &amp; co.ply</h1>",
+                             "<a href=\"#sheet-1\">A</a>",
+                             "<a href=\"#sheet-2\">B, part 1 of 2</a>",
+                             "<a href=\"#sheet-3\">B, part 2 of 2</a>",
+                             "id=\"sheet-3\"",
+                             "Without a job: C, D.",
+                             "Sawn only, without a job: E.",
+                             "the sheet of A",
+                             "the sheet of B",
+                             "the second sheet of B",
+                             "B.p2.qjob",
+                             "<td>pieces with a job</td><td>2</td>",
+                             "<td>jobs</td><td>3</td>",
+                             "<td>time, without setting up</td><td>3 h 00 min</td>",
+                             "<td>blocks &quot;flat&quot;</td><td>1</td>",
+                             "<td>blocks &quot;tall &lt;x&gt;&quot;</td><td>1</td>",
+                             "<td>tools</td><td>1, 3, 7</td>",
+                             "<td>foam to take off by hand</td><td>3.0 cm3</td>",
+                             "<td>holes to drill by hand</td><td>4</td>",
+                             "1.23"}) {
         EXPECT_EQ(count_of(html, text), text == std::string("1.23") ? 3U : 1U) << text << "\n" << html;
     }
     EXPECT_EQ(count_of(html, "<article"), 4U);

@@ -108,15 +108,6 @@ TEST(SetupPicture, AnArrowMoreIsSeen) {
     EXPECT_NE(two.back, one.back);
 }
 
-TEST(SetupPicture, TheTouchPointsGiveTheFrame) {
-    const auto [first, second, third] = touch_points(tilting_job().setup);
-    const Vec3 along = second.at - first.at;
-    const Vec3 across = third.at - first.at;
-    EXPECT_EQ(normalized(along), (Vec3{1, 0, 0}));
-    EXPECT_EQ(normalized(across), (Vec3{0, 1, 0}));
-    EXPECT_EQ(first.at, (Vec3{-29, -28, 32})) << "a block of 58 x 56 x 44 mm, 12 mm of it below the base";
-}
-
 TEST(SetupPicture, OfAPieceWithoutTrianglesTheBlockIsDrawn) {
     JobInput input = tilting_job();
     input.states.clear();
