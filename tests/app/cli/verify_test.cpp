@@ -240,7 +240,7 @@ TEST_F(VerifyCommand, HolesOtherThanThoseOfTheProjectAreNamed) {
     const fs::path cut = folder.path / "p.qch" / "jobs" / "B.qjob";
     const Ended as_made = run({"verify", "p.qch"});
     EXPECT_FALSE(has(as_made.out, "hole")) << as_made.out;
-    change_manifest(cut, "\"caps\"", "\"depth\": 22", "\"depth\": 20");
+    change_manifest(cut, "\"caps\"", "\"depth_mm\": 22", "\"depth_mm\": 20");
     const Ended ended = run({"verify", "p.qch"});
     EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
     EXPECT_TRUE(has(ended.out, "piece B: hole 1 is 20.000 mm deep, in the joint with piece C at cut 1 it is 22.000 mm"))

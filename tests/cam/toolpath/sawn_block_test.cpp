@@ -229,8 +229,8 @@ TEST_F(SawnBlock, OffByHalfAMillimetreItKeepsItsGlueFacesButForTheirRims) {
     EXPECT_LE(too_far_in(path()), 0);
 }
 
-// The caps are said to lie in the top of the block: then they are no surface to mill either, and neither of the two knows
-// of them, so that band and contours go along them as along any wall.
+// The caps are said to lie in the top of the block: then they are no surface to mill either, and neither of the two
+// knows of them, so that band and contours go along them as along any wall.
 TEST_F(SawnBlock, WithBandAndContoursAlongThemTheFacesAreMilled) {
     qchopper::Setup setup = piece.setup;
     for (FlushCap& cap : setup.flush_caps) cap.face = BlockFace::top;
