@@ -12,14 +12,19 @@
 
 namespace qchopper {
 
-// In degrees, with twelve decimals.
-inline double stated_degrees(double angle_rad) {
+// Degrees with twelve decimals.
+inline double degrees_to_twelve(double angle_rad) {
     return std::round(degrees(angle_rad) * 1e12) / 1e12;
 }
 
 // The angle that is read where its stated_degrees() were written.
 inline double stated_angle(double angle_rad) {
-    return radians(stated_degrees(angle_rad));
+    return radians(degrees_to_twelve(angle_rad));
+}
+
+// In degrees: degrees_to_twelve() where these are read as the same angle, else all digits.
+inline double stated_degrees(double angle_rad) {
+    return stated_angle(angle_rad) == angle_rad ? degrees_to_twelve(angle_rad) : degrees(angle_rad);
 }
 
 }  // namespace qchopper
