@@ -155,6 +155,7 @@ std::vector<Point2> turns_to_try(std::span<const CapPoints> caps, std::span<cons
     }
     turns.push_back(smallest_rectangle(upright.hull).along);
     std::vector<std::pair<double, Point2>> by_cost;
+    by_cost.reserve(turns.size());
     for (const Point2& turn : turns)
         by_cost.emplace_back(cost_of(turn, upright, caps, up, *base, margins, tolerance), turn);
     std::stable_sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

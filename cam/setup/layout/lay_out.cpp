@@ -75,8 +75,8 @@ void choose_block_for(std::span<const CapPoints> caps, const Cell& stocked, Setu
     setup.milled_caps_mm2 = 0;
     for (const CapPoints& cap : caps) setup.milled_caps_mm2 += setup.is_unmilled(cap.cut) ? 0 : cap.area_mm2;
     for (int axis = 0; axis < 2; ++axis) {
-        const bool at_min = flush[static_cast<std::size_t>(2 * axis)];
-        if (at_min == flush[static_cast<std::size_t>(2 * axis + 1)]) continue;
+        const bool at_min = flush[2 * static_cast<std::size_t>(axis)];
+        if (at_min == flush[2 * static_cast<std::size_t>(axis) + 1]) continue;
         const double foam = 0.5 * (setup.block.size[axis] - setup.box.size()[axis]);
         const double by = at_min ? -foam : foam;
         setup.piece_in_setup.shift[axis] += by;
