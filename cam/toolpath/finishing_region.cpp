@@ -160,8 +160,10 @@ void add_floor_band(FinishingRegion& region, const HeightField& target, double w
     const Box block = setup.block_box();
     const FlushFaces flush = setup.flush_faces();
     const auto is_beyond_saw = [&](std::size_t i) {
-        const double column = static_cast<double>(i % target.columns) + 0.5;
-        const double row = static_cast<double>(i / target.columns) + 0.5;
+        const std::size_t in_row = i % target.columns;
+        const std::size_t in_column = i / target.columns;
+        const double column = static_cast<double>(in_row) + 0.5;
+        const double row = static_cast<double>(in_column) + 0.5;
         const Vec3 p = field_to_setup(setup, target, {target.cell * column, target.cell * row, 0});
         return (flush[0] && p.x < block.min.x) || (flush[1] && p.x > block.max.x) || (flush[2] && p.y < block.min.y) ||
                (flush[3] && p.y > block.max.y);
