@@ -21,6 +21,7 @@ namespace {
 constexpr double foam_for_a_saw_cut = 20e6;
 
 constexpr double rounding = 1e-6;      // mm
+constexpr double steps_per_mm = 10;    // 1 / flush_step, exact, so that a size in tenths is written with one digit
 constexpr double above_the_table = 2;  // mm of foam that no tool cuts, under the deepest one
 
 AxisLengths lengths(Vec3 v) {
@@ -83,7 +84,7 @@ std::optional<SawnSize> sawn_to(const Wanted& wanted, const AxisLengths& stock, 
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t faces = sawn_along(flush, axis);
         const double needed = lengths(size_with_foam(wanted.piece, wanted.margins, flush))[axis];
-        const double sawn = flush_step * std::round(needed / flush_step);
+        const double sawn = std::round(needed / flush_step) / steps_per_mm;
         if (faces > 0 && sawn + static_cast<double>(faces) * kerf <= stock[axis] + rounding) {
             size[axis] = {sawn, static_cast<int>(faces)};
             continue;
