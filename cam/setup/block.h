@@ -7,31 +7,15 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include "base/enum_names.h"
 #include "cam/cell/cell.h"
+#include "cam/setup/block_face.h"
 
 namespace qchopper {
 
 // Foam around a piece: that of the cell file, with a spoil layer that the tools of the machine do not cut through.
 Margins margins_of(const Cell& cell);
-
-// Of a block as it stands, but for its underside.
-enum class BlockFace : std::uint8_t { minus_x, plus_x, minus_y, plus_y, top };
-constexpr std::size_t block_faces = 5;
-
-constexpr auto names_of(BlockFace) {
-    return EnumNames<BlockFace, block_faces>{{{BlockFace::minus_x, "-x"},
-                                              {BlockFace::plus_x, "+x"},
-                                              {BlockFace::minus_y, "-y"},
-                                              {BlockFace::plus_y, "+y"},
-                                              {BlockFace::top, "top"}}};
-}
-
-// Faces of a block that are sawn in the planes of caps, by BlockFace: no foam is kept there.
-using FlushFaces = std::array<bool, block_faces>;
 
 // Foam that is kept at each face, by BlockFace, at least: none where it is flush.
 std::array<double, block_faces> foam_at_faces(const Margins& margins, const FlushFaces& flush);

@@ -15,7 +15,7 @@ double volume(Vec3 v) {
 }
 
 // The block with the cuts that each axis takes from the stock as it stands; nothing if it is not cut from that.
-std::optional<SawnSize> sawn_size(const AxisLengths& stock, Vec3 block, const SawnFaces& faces, double kerf) {
+std::optional<SawnSize> sawn_size(const AxisLengths& stock, Vec3 block, const FlushFaces& faces, double kerf) {
     SawnSize size{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double length = block[static_cast<int>(axis)];
@@ -30,7 +30,7 @@ std::optional<SawnSize> sawn_size(const AxisLengths& stock, Vec3 block, const Sa
 
 }  // namespace
 
-std::size_t sawn_along(const SawnFaces& faces, std::size_t axis) {
+std::size_t sawn_along(const FlushFaces& faces, std::size_t axis) {
     if (axis == 2) return faces[4] ? 1 : 0;
     return static_cast<std::size_t>(faces[2 * axis]) + static_cast<std::size_t>(faces[2 * axis + 1]);
 }
@@ -59,13 +59,13 @@ std::vector<Vec3> offcuts_of(const std::vector<SawCuts>& cuts) {
     return offcuts;
 }
 
-bool is_sawn_last(const AxisOrder& order, const SawnFaces& faces) {
+bool is_sawn_last(const AxisOrder& order, const FlushFaces& faces) {
     return std::is_sorted(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return sawn_along(faces, a) == 0 && sawn_along(faces, b) > 0;
     });
 }
 
-std::vector<SawCuts> saw_cuts(const Stock& stock, Vec3 block, const std::vector<Vec3>& offcuts, const SawnFaces& faces,
+std::vector<SawCuts> saw_cuts(const Stock& stock, Vec3 block, const std::vector<Vec3>& offcuts, const FlushFaces& faces,
                               double parted) {
     const auto is_same = [](Vec3 a, Vec3 b) { return norm(a - b) <= rounding; };
     for (const AxisOrder& turn : axis_orders) {

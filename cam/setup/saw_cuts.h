@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cam/cell/cell.h"
+#include "cam/setup/block_face.h"
 
 namespace qchopper {
 
@@ -19,10 +20,8 @@ using AxisOrder = std::array<std::size_t, 3>;
 // All orders of three axes, those first that leave z alone.
 constexpr std::array<AxisOrder, 6> axis_orders{{{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 0, 1}, {1, 2, 0}, {2, 1, 0}}};
 
-// By BlockFace (block.h): which faces are sawn in the planes of caps.
-using SawnFaces = std::array<bool, 5>;
-// How many of an axis: z has one that can be, because the spoil layer lies under the piece.
-std::size_t sawn_along(const SawnFaces& faces, std::size_t axis);
+// How many faces of an axis are flush: z has one that can be, because the spoil layer lies under the piece.
+std::size_t sawn_along(const FlushFaces& faces, std::size_t axis);
 
 // A size along an axis, and how many saw cuts it takes from the stock.
 struct SawnLength {
@@ -46,12 +45,12 @@ std::vector<SawCuts> cuts_in(const AxisOrder& order, AxisLengths stock, const Sa
 // Largest first.
 std::vector<Vec3> offcuts_of(const std::vector<SawCuts>& cuts);
 // Whether axes with glue faces come after the others, so that no later cut spoils those.
-bool is_sawn_last(const AxisOrder& order, const SawnFaces& faces);
+bool is_sawn_last(const AxisOrder& order, const FlushFaces& faces);
 
 // The cuts, in order, that make a block of a size (as it stands, spoil layer included) and leave these offcuts; glue
 // faces last. `parted`: thickness of the layer under the piece that is sawn off too, of a piece that the saw alone
 // makes; else 0. Empty where no such cuts of the stock do. O(36 orders).
-std::vector<SawCuts> saw_cuts(const Stock& stock, Vec3 block, const std::vector<Vec3>& offcuts, const SawnFaces& faces,
+std::vector<SawCuts> saw_cuts(const Stock& stock, Vec3 block, const std::vector<Vec3>& offcuts, const FlushFaces& faces,
                               double parted = 0);
 
 }  // namespace qchopper

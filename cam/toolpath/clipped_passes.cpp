@@ -187,11 +187,9 @@ std::vector<Pass> clear_of_sawn_faces(const std::vector<Pass>& passes, const Hei
     return divided(passes, sawn_step,
                    [&](Vec3 p) {
                        const Vec3 c = field_to_setup(setup, map, p + Vec3{0, 0, radius});
-                       const std::array<double, block_faces> beyond{block.min.x - c.x, c.x - block.max.x,
-                                                                    block.min.y - c.y, c.y - block.max.y,
-                                                                    c.z - block.max.z};
+                       const std::array<double, block_faces> inside = inside_faces(block, c);
                        for (std::size_t f = 0; f < block_faces; ++f) {
-                           if (flush[f] && beyond[f] > radius - inside_sawn_face) return false;
+                           if (flush[f] && -inside[f] > radius - inside_sawn_face) return false;
                        }
                        return true;
                    })

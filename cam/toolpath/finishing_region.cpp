@@ -160,13 +160,17 @@ void add_floor_band(FinishingRegion& region, const HeightField& target, double w
     const Box block = setup.block_box();
     const FlushFaces flush = setup.flush_faces();
     const auto is_beyond_saw = [&](std::size_t i) {
-        const std::size_t in_row = i % target.columns;
-        const std::size_t in_column = i / target.columns;
-        const double column = static_cast<double>(in_row) + 0.5;
-        const double row = static_cast<double>(in_column) + 0.5;
-        const Vec3 p = field_to_setup(setup, target, {target.cell * column, target.cell * row, 0});
-        return (flush[0] && p.x < block.min.x) || (flush[1] && p.x > block.max.x) || (flush[2] && p.y < block.min.y) ||
-               (flush[3] && p.y > block.max.y);
+        const std::size_t column = i % target.columns;
+        const std::size_t row = i / target.columns;
+        const Vec3 p = field_to_setup(
+            setup, target,
+            {target.cell * (static_cast<double>(column) + 0.5), target.cell * (static_cast<double>(row) + 0.5), 0});
+        const std::array<double, block_faces> inside = inside_faces(block, p);
+        for (const BlockFace side : {BlockFace::minus_x, BlockFace::plus_x, BlockFace::minus_y, BlockFace::plus_y}) {
+            const auto f = static_cast<std::size_t>(side);
+            if (flush[f] && inside[f] < 0) return true;
+        }
+        return false;
     };
     for (std::size_t i = 0; i < piece.size(); ++i) {
         if (band[i] != 0 && piece[i] == 0 && !is_beyond_saw(i)) region[i] = std::min(region[i], target.height[i]);

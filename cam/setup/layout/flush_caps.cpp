@@ -24,9 +24,7 @@ std::optional<BlockFace> face_of(const CapPoints& cap, const Pose& piece_in_setu
     FlushFaces is_near;
     is_near.fill(true);
     for (const Vec3& in_piece : cap.points) {
-        const Vec3 p = apply(piece_in_setup, in_piece);
-        const std::array<double, block_faces> away{p.x - box.min.x, box.max.x - p.x, p.y - box.min.y, box.max.y - p.y,
-                                                   box.max.z - p.z};
+        const std::array<double, block_faces> away = inside_faces(box, apply(piece_in_setup, in_piece));
         bool is_any = false;
         for (std::size_t f = 0; f < block_faces; ++f) {
             is_near[f] = is_near[f] && away[f] <= tolerance;

@@ -313,8 +313,7 @@ CellMask shown_flush_caps(const HeightField& map, const Setup& setup) {
         const Vec3 p =
             apply(map_in_setup, {map.cell * (number(i % map.columns) + 0.5), map.cell * (number(i / map.columns) + 0.5),
                                  static_cast<double>(map.height[i])});
-        const std::array<double, block_faces> away{p.x - block.min.x, block.max.x - p.x, p.y - block.min.y,
-                                                   block.max.y - p.y, block.max.z - p.z};
+        const std::array<double, block_faces> away = inside_faces(block, p);
         for (std::size_t f = 0; f < block_faces; ++f) {
             if (flush[f] && away[f] < near_flush_face) shown[i] = 1;
         }
