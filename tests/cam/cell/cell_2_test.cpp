@@ -363,6 +363,13 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
     }
 }
 
+// The cell with these lines as its table [saw], or with no such table for an empty text.
+std::string with_saw(std::string text, const std::string& keys) {
+    const std::size_t begin = text.find("[saw]\n");
+    EXPECT_NE(begin, std::string::npos);
+    return text.replace(begin, text.find("\n\n", begin) - begin, keys.empty() ? "" : "[saw]\n" + keys);
+}
+
 // A cell in which no block may be sawn.
 std::string never_sawn() {
     std::string text = robot_cell();
@@ -372,12 +379,8 @@ std::string never_sawn() {
     return text;
 }
 
-std::string with_saw(const std::string& cell, const std::string& keys) {
-    return replaced(cell, "[margin]\n", "[saw]\n" + keys + "\n[margin]\n");
-}
-
 TEST(CellVersion2, TheSawIsReadWhereABlockMayBeSawn) {
-    const Cell by_default = parse_cell(robot_cell(), "cell.toml");
+    const Cell by_default = parse_cell(with_saw(robot_cell(), ""), "cell.toml");
     EXPECT_EQ(by_default.saw, (Saw{0.5, 0.1}));
     const auto has = [](const Cell& cell, const ValueOrigin& value) {
         return std::find(cell.origins.begin(), cell.origins.end(), value) != cell.origins.end();
@@ -387,7 +390,7 @@ TEST(CellVersion2, TheSawIsReadWhereABlockMayBeSawn) {
         parse_cell(with_saw(robot_cell(), "accuracy = 0.2\nflush_tolerance = 0\nsource = \"measured\""), "cell.toml");
     EXPECT_EQ(given.saw, (Saw{0.2, 0}));
     EXPECT_TRUE(has(given, {"saw", "accuracy", Origin::measured}));
-    const Cell none = parse_cell(never_sawn(), "cell.toml");
+    const Cell none = parse_cell(with_saw(never_sawn(), ""), "cell.toml");
     EXPECT_EQ(none.saw, Saw{});
     EXPECT_TRUE(std::none_of(none.origins.begin(), none.origins.end(),
                              [](const ValueOrigin& value) { return value.table == "saw"; }));
