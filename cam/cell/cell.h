@@ -118,6 +118,8 @@ struct ProgramSettings {
     double joint_share = 0.5;                     // of the largest speed and acceleration of each axis, in joint moves
     double scallop = 0.25;                        // mm, height of the ridges that finishing may leave
     std::optional<std::string> tool_change_call;  // program that changes the tool; nothing: stop for a person
+    double interpolation_cycle_s = 0.012;         // of the controller: no straight move takes less
+    double tool_change_s = 60;                    // assumed; of each change, the first tool of a program included
     bool operator==(const ProgramSettings&) const = default;
 };
 

@@ -90,8 +90,8 @@ inline constexpr TableKeys holding{"holding", {"cutting_force", "strength", "max
 inline constexpr TableKeys start{"start", {"joints_deg", "tip"}};
 inline constexpr TableKeys program{
     "program",
-    {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change", "acceleration",
-     "turn_speed_deg_per_s", "joint_move_percent", "scallop"}};
+    {"memory_bytes", "lines_per_chunk", "interpolation_cycle", "tool_change_time", "source", "sources", "dialect",
+     "link_feed", "tool_change", "acceleration", "turn_speed_deg_per_s", "joint_move_percent", "scallop"}};
 inline constexpr TableKeys load_tolerance{"load_tolerance", {"mass_kg", "centre_mm", "inertia_kg_m2"}};
 inline constexpr TableKeys link{"link", {"to", "drop"}};
 inline constexpr TableKeys dowel{"dowel", {"diameter", "depth", "wall"}};

@@ -160,6 +160,8 @@ ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& or
     if (reader.has("lines_per_chunk")) program.lines_per_chunk = reader.whole("lines_per_chunk", 10, 10'000'000);
     program.link_feed_mm_per_s = reader.number("link_feed", 1, 5'000);
     program.tool_change_call = read_tool_change(reader);
+    reader.number_if_given("interpolation_cycle", 0.001, 1, program.interpolation_cycle_s);
+    reader.number_if_given("tool_change_time", 0, 3'600, program.tool_change_s);
     read_motion(reader, program);
     add_origins(reader, keys_2::program, "program", origins);
     add_defaults(reader, keys_2::program.with_origin(), "program", origins);

@@ -131,6 +131,8 @@ Json machine_json(const CellMachine& machine, const Margins& margins) {
              {{"dialect", to_word(machine.program.dialect)},
               {"memory_bytes", machine.program.memory_bytes},
               {"lines_per_chunk", machine.program.lines_per_chunk},
+              {"interpolation_cycle_s", machine.program.interpolation_cycle_s},
+              {"tool_change_time_s", machine.program.tool_change_s},
               {"link_feed_mm_per_s", machine.program.link_feed_mm_per_s},
               {"acceleration_mm_per_s2", machine.program.acceleration},
               {"turn_speed_deg_per_s", degrees(machine.program.turn_speed)},

@@ -123,10 +123,12 @@ void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
     text.push_back(std::string("programs   ") + to_word(program.dialect) + ", " + with_commas(program.memory_bytes) +
                    " bytes, " + with_commas(program.lines_per_chunk) + " lines a chunk, links up to " +
                    number(program.link_feed_mm_per_s) + " mm/s, tool change by " +
-                   (program.tool_change_call ? "calling " + *program.tool_change_call : "a stop"));
+                   (program.tool_change_call ? "calling " + *program.tool_change_call : "a stop") + " of " +
+                   number(program.tool_change_s) + " s");
     text.push_back("motion     up to " + number(program.acceleration) + " mm/s2, " + degrees(program.turn_speed) +
                    " degrees/s of orientation, joint moves at " + number(100 * program.joint_share) +
-                   " % of each axis; finishing leaves ridges of " + number(program.scallop));
+                   " % of each axis, straight moves of " + number(1000 * program.interpolation_cycle_s) +
+                   " ms and more; finishing leaves ridges of " + number(program.scallop));
 }
 
 std::string picture_line(const Cell& cell, const ReachPicture& picture) {

@@ -204,22 +204,41 @@ TEST(CellVersion2, OriginsAreThoseOfTheTableUnlessAKeyHasItsOwn) {
     EXPECT_EQ(origin("stock small", "kerf"), "assumed");
 }
 
+TEST(CellVersion2, CycleAndToolChangeHaveAnOrigin) {
+    const auto origin = [](const std::string& text, const std::string& key) {
+        for (const ValueOrigin& value : parse_cell(text, "cell.toml").origins) {
+            if (value.table == "program" && value.key == key) return value.origin;
+        }
+        return Origin::unstated;
+    };
+    const std::string given =
+        replaced(robot_cell(), "link_feed = 300.0", "link_feed = 300.0\ninterpolation_cycle = 0.004");
+    EXPECT_EQ(origin(robot_cell(), "interpolation_cycle"), Origin::by_default);
+    EXPECT_EQ(origin(robot_cell(), "tool_change_time"), Origin::by_default);
+    EXPECT_EQ(origin(given, "interpolation_cycle"), Origin::assumed) << "as the table says";
+}
+
 TEST(CellVersion2, ReadsTheLimitsOfPrograms) {
     const Cell by_default = parse_cell(robot_cell(), "cell.toml");
     EXPECT_EQ(by_default.machine->program.acceleration, 2000);
     EXPECT_NEAR(by_default.machine->program.turn_speed, 100 * degree, 1e-12);
     EXPECT_EQ(by_default.machine->program.joint_share, 0.5);
     EXPECT_EQ(by_default.machine->program.scallop, 0.25);
+    EXPECT_EQ(by_default.machine->program.interpolation_cycle_s, 0.012);
+    EXPECT_EQ(by_default.machine->program.tool_change_s, 60);
     EXPECT_EQ(by_default.machine->load_tolerance, LoadTolerance{});
-    std::string text = replaced(robot_cell(), "link_feed = 300.0",
-                                "link_feed = 300.0\nacceleration = 1500\nturn_speed_deg_per_s = 45\n"
-                                "joint_move_percent = 20\nscallop = 0.4");
+    std::string text =
+        replaced(robot_cell(), "link_feed = 300.0",
+                 "link_feed = 300.0\nacceleration = 1500\nturn_speed_deg_per_s = 45\n"
+                 "joint_move_percent = 20\nscallop = 0.4\ninterpolation_cycle = 0.004\ntool_change_time = 0");
     text = replaced(text, "[margin]", "[load_tolerance]\nmass_kg = 1\ncentre_mm = 5\ninertia_kg_m2 = 0.2\n[margin]");
     const CellMachine machine = *parse_cell(text, "cell.toml").machine;
     EXPECT_EQ(machine.program.acceleration, 1500);
     EXPECT_NEAR(machine.program.turn_speed, 45 * degree, 1e-12);
     EXPECT_NEAR(machine.program.joint_share, 0.2, 1e-12);
     EXPECT_EQ(machine.program.scallop, 0.4);
+    EXPECT_EQ(machine.program.interpolation_cycle_s, 0.004);
+    EXPECT_EQ(machine.program.tool_change_s, 0);
     EXPECT_EQ(machine.load_tolerance, (LoadTolerance{1, 5, 0.2}));
 }
 
@@ -281,6 +300,12 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
          "program.turn_speed_deg_per_s", "out of bounds"},
         {"link_feed = 300.0", "joint_move_percent = 50.5\nlink_feed = 300.0", "joint_move",
          "program.joint_move_percent", "whole"},
+        {"link_feed = 300.0", "interpolation_cycle = 0\nlink_feed = 300.0", "interpolation_cycle",
+         "program.interpolation_cycle", "out of bounds"},
+        {"link_feed = 300.0", "tool_change_time = -1\nlink_feed = 300.0", "tool_change_time",
+         "program.tool_change_time", "out of bounds"},
+        {"link_feed = 300.0", "tool_change_time = 3601\nlink_feed = 300.0", "tool_change_time",
+         "program.tool_change_time", "out of bounds"},
         {"link_feed = 300.0", "scallop = 2.5\nlink_feed = 300.0", "scallop", "program.scallop", "out of bounds"},
         {"[margin]", "[load_tolerance]\ncentre_mm = -1.0\n[margin]", "centre_mm", "load_tolerance.centre_mm",
          "out of bounds"},
