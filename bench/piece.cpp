@@ -101,11 +101,6 @@ ToolPath lines_of(const Toolpath& path) {
     return lines;
 }
 
-const char* word_of(OperationKind kind) {
-    if (kind == OperationKind::roughing) return "roughing";
-    return kind == OperationKind::finishing ? "finishing" : "fine finishing";
-}
-
 void print_operations(const Toolpath& path, const Cell& cell) {
     for (std::size_t k = 0; k < path.operations.size(); ++k) {
         const Operation& operation = path.operations[k];
@@ -120,7 +115,7 @@ void print_operations(const Toolpath& path, const Cell& cell) {
             }
         }
         std::printf("  %2zu %-14s tool %u, direction %zu: %zu runs, %.0f m of cuts, %.2f MB\n", k + 1,
-                    word_of(operation.kind), cell.machine->tools[operation.tool].number, operation.orientation,
+                    to_word(operation.kind), cell.machine->tools[operation.tool].number, operation.orientation,
                     operation.runs.size(), 1e-3 * cut, 1e-6 * bytes_per_point * static_cast<double>(points));
     }
 }

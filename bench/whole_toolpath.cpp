@@ -102,12 +102,6 @@ std::map<OperationKind, Totals> totals_of(const Toolpath& path) {
     return totals;
 }
 
-const char* word_of(OperationKind kind) {
-    if (kind == OperationKind::roughing) return "roughing";
-    if (kind == OperationKind::drilling) return "drilling";
-    return kind == OperationKind::finishing ? "finishing" : "fine finishing";
-}
-
 double reached_m2(const Setup& setup) {
     const SurfaceAccess& access = setup.access;
     return 1e-6 * (access.area_mm2 - access.unreachable_mm2());
@@ -119,10 +113,10 @@ void record(const std::string& name, const Setup& setup, const Toolpath& path, F
                    number_text(area) + " m2, " + std::to_string(setup.access.orientations.size()));
     for (const auto& [kind, totals] : totals_of(path)) {
         const double points = static_cast<double>(totals.points);
-        figures.record(name, std::string(word_of(kind)) + ": length of cuts, points, of them at the end of cuts, runs",
+        figures.record(name, std::string(to_word(kind)) + ": length of cuts, points, of them at the end of cuts, runs",
                        number_text(1e-3 * totals.cut_mm) + " m, " + number_text(points) + ", " +
                            number_text(static_cast<double>(totals.cuts)) + ", " + std::to_string(totals.runs));
-        const std::string what = std::string(word_of(kind)) + ": megabytes of KRL per m2";
+        const std::string what = std::string(to_word(kind)) + ": megabytes of KRL per m2";
         const double megabytes = 1e-6 * static_cast<double>(totals.bytes) / area;
         // One direction alone; scripts/prove has the figure of all directions of all pieces, which may be at most 4.
         figures.record(name, what, number_text(megabytes));

@@ -136,6 +136,7 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
     text.comment("chunk " + std::to_string(order + 1) + " of " + std::to_string(total));
     text.comment("direction " + std::to_string(operation.orientation + 1));
     text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
+    text.comment(std::string("operation ") + to_word(operation.kind));
     text.comment("moves of runs: " + std::to_string(moves));
     text.comment("box of the tip in mm: " + box_words(box));
     text.comment(std::string("start from home: ") +

@@ -269,6 +269,7 @@ PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setu
         if (refused[i]) std::rethrow_exception(refused[i]);
         for (PlannedOperation& planned : by_operation[i]) {
             planned.operation.toolpath_operation = i;
+            planned.operation.kind = toolpath.operations[i].kind;
             all_planned.all.push_back(std::move(planned));
         }
         if (left_out[i].first > 0 && all_planned.left_out == 0) all_planned.left_out_because = left_out[i].second;

@@ -73,9 +73,10 @@ struct PtpPath {
 // table turns and tools are changed.
 struct ProgramOperation {
     std::size_t toolpath_operation = 0;  // index in Toolpath::operations
-    std::size_t tool = 0;                // index in CellMachine::tools
-    std::size_t orientation = 0;         // index in SurfaceAccess::orientations, with those of drilling behind them
-    Vec3 tool_axis;                      // unit, in setup coordinates
+    OperationKind kind = OperationKind::roughing;
+    std::size_t tool = 0;         // index in CellMachine::tools
+    std::size_t orientation = 0;  // index in SurfaceAccess::orientations, with those of drilling behind them
+    Vec3 tool_axis;               // unit, in setup coordinates
     ArmConfiguration configuration;
     double redundancy_angle = 0;  // about the tool axis, of tip_frame() (machine_reachability.h)
     Pose tool_in_setup;           // orientation of the program's tool frame; its shift is 0

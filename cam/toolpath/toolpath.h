@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,12 @@ namespace qchopper {
 // Roughing leaves an allowance. Fine finishing goes only where the tool of the finishing left more than the scallop
 // height. Drilling comes last and makes the holes for dowels (drilling.h).
 enum class OperationKind : std::uint8_t { roughing, finishing, fine_finishing, drilling };
+
+// "roughing", "finishing", "fine finishing", "drilling"
+inline const char* to_word(OperationKind kind) {
+    constexpr std::array words{"roughing", "finishing", "fine finishing", "drilling"};
+    return words[static_cast<std::size_t>(kind)];
+}
 
 // What a move is for, which decides its speed: an approach enters the foam from above, a cut removes foam, a link leads
 // to the next cut through space that is already clear, a retract leaves.

@@ -117,6 +117,9 @@ ParsedProgram KrlExecution::run() {
 void KrlExecution::read_comment(std::string_view line) {
     constexpr std::string_view before = ";hole ";
     if (lower_case(line) == ";start from home: free") program_.chunks.back().free_from_home = place_.line;
+    for (const char* operation : {"roughing", "finishing", "fine finishing", "drilling"}) {
+        if (lower_case(line) == std::string(";operation ") + operation) program_.chunks.back().operation = operation;
+    }
     if (lower_case(line.substr(0, before.size())) != before) return;
     const std::string_view digits = line.substr(before.size());
     std::uint32_t number = 0;
@@ -130,7 +133,7 @@ void KrlExecution::begin_chunk(bool is_main) {
     is_main_ = is_main;
     hole_ = 0;
     has_moved_ = false;
-    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main, end_line_, 0});
+    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main, end_line_});
 }
 
 void KrlExecution::end_chunk() {

@@ -93,6 +93,9 @@ struct ProgramChunk {
     std::uint32_t end_line = 0;  // with the END of the file
     // Of a chunk: the line of the comment ";start from home: free"; 0: there is none.
     std::uint32_t free_from_home = 0;
+    // Of a chunk, as the comment ";operation WORDS" says: "roughing", "finishing", "fine finishing" or "drilling";
+    // "unknown" without one or with other words.
+    std::string operation = "unknown";
 };
 
 // In what a reader returns every index is valid, every number is finite, and every linear_move has a tool, a base and a

@@ -127,6 +127,19 @@ TEST(KrlChunks, StateTheLimitsOfTheCellFile) {
     }
 }
 
+TEST(KrlChunks, SayWhatTheyAreFor) {
+    const Cell cell = kr60();
+    Program program = RandomProgram(5).make(cell, 4, 3, 5);
+    const std::vector<std::string> words{"roughing", "finishing", "fine finishing", "drilling"};
+    for (std::size_t i = 0; i < words.size(); ++i) program.operations[i].kind = static_cast<OperationKind>(i);
+    const ProgramPart part = post_krl(program, cell, {3}).front();
+    ASSERT_GE(part.chunks.size(), words.size());
+    for (const PostedChunk& chunk : part.chunks) {
+        const std::string& text = test_krl::text_of(part, chunk.name);
+        EXPECT_NE(text.find("\r\n;operation " + words[chunk.operation] + "\r\n"), std::string::npos) << text;
+    }
+}
+
 TEST(KrlChunks, AreNotSmallerThanTheyMustBe) {
     RandomProgram random(2);
     Cell cell = kr60();

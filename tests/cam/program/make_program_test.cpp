@@ -173,6 +173,9 @@ TEST(MakeProgram, HoldsEveryPoseOfAFixedTable) {
     for (std::size_t i = 0; i < job.toolpath.operations.size(); ++i) {
         EXPECT_EQ(cuts_of(program, i), cuts_of(job.toolpath.operations[i]));
     }
+    for (const ProgramOperation& operation : program.operations) {
+        EXPECT_EQ(operation.kind, job.toolpath.operations[operation.toolpath_operation].kind);
+    }
 }
 
 TEST(MakeProgram, HoldsEveryPoseOfARotaryTable) {

@@ -108,6 +108,19 @@ TEST(KrlReader, KnowsWhatAChunkSaysOfItsStart) {
     EXPECT_EQ(line_of_comment(";start from home: not free, see the chunks before\n" + chunk), 0U);
 }
 
+TEST(KrlReader, KnowsWhatAChunkIsFor) {
+    const auto operation_of = [](const std::string& comment) { return read(comment + chunk).chunks[1].operation; };
+    EXPECT_EQ(operation_of(""), "unknown");
+    for (const std::string words : {"roughing", "finishing", "fine finishing", "drilling"}) {
+        EXPECT_EQ(operation_of(";operation " + words + "\n"), words);
+    }
+    EXPECT_EQ(operation_of(";OPERATION Roughing\n"), "roughing");
+    for (const std::string other : {";operation engraving\n", ";operation\n", ";operation roughing twice\n"}) {
+        EXPECT_EQ(operation_of(other), "unknown") << other;
+    }
+    EXPECT_EQ(read(chunk).chunks[0].operation, "unknown") << "the main program is none";
+}
+
 TEST(KrlReader, SummarisesChunks) {
     const std::vector<ChunkSummary> summaries = summarise_chunks(read(chunk));
     ASSERT_EQ(summaries.size(), 1U);
