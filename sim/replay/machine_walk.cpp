@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "cam/cell/reach_map.h"
 #include "sim/program/krl_line.h"
 #include "sim/replay/arm_pose.h"
+#include "sim/replay/path_time.h"
 #include "sim/replay/signal_walk.h"
 #include "sim/replay/state_check.h"
 #include "sim/replay/turn.h"
@@ -45,6 +47,24 @@ std::string as_comment(std::string text) {
     return text;
 }
 
+// How the axes take part in a line of the tip.
+struct AxisMotion {
+    JointRates first{};
+    JointRates last{};
+    double acceleration = std::numeric_limits<double>::infinity();  // of the tip, at which no axis exceeds its own
+};
+
+// The joints change by that while the tip goes on by `way` mm.
+void add_step(const Joints& before, const Joints& after, double way, bool is_first, const MotionLimits& limits,
+              AxisMotion& motion) {
+    if (!(way > 0)) return;
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        motion.last[axis] = static_cast<float>((after[axis] - before[axis]) / way);
+    }
+    if (is_first) motion.first = motion.last;
+    motion.acceleration = std::min(motion.acceleration, tip_acceleration(motion.last, limits));
+}
+
 class Walk {
  public:
     Walk(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log)
@@ -56,6 +76,7 @@ class Walk {
           arm_(*scene.cell, log),
           states_(scene, setup_in_table_, log),
           signals_(machine_, log),
+          limits_(motion_limits(machine_)),
           joints_(machine_.start.joints),
           table_angle_(scene.start_table_angle) {
         if (machine_.rotary_table) {
@@ -85,11 +106,13 @@ class Walk {
     void check_stop(SourcePlace place);
     void check_end(SourcePlace place);
     void take_line(const ProgramStep& step);
-    void follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
+    AxisMotion follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
     void check_speed(const Joints& before, double way, double feed, SourcePlace place);
     void check_table(const ProgramStep& step);
     bool is_aligned(Vec3 tool_axis, SourcePlace place);
-    void add_line(Vec3 from, Vec3 to, Vec3 tool_axis, const ProgramStep& step, const ModalState& state);
+    void add_line(Vec3 from, const TipPose& to, const ProgramStep& step, const ModalState& state,
+                  const AxisMotion& motion);
+    void use_tool(const std::string& operation);
     Pose base_in_robot(const ModalState& state) const;
     TipPose tip_pose() const;
     const CuttingTool& tool() const { return machine_.tools[tool_]; }
@@ -102,12 +125,15 @@ class Walk {
     ArmPoses arm_;
     StateCheck states_;
     SignalWalk signals_;
+    MotionLimits limits_;
     Joints joints_;
     double table_angle_;
     Pose setup_in_table_;
     std::uint32_t chunk_ = 0;
     std::uint32_t direction_ = 0;
     std::uint32_t tool_ = 0;
+    std::uint32_t use_ = 0;                    // index in ToolPath::uses
+    bool is_changed_ = false;                  // the tool, and no chunk is entered since
     std::optional<std::uint16_t> asked_tool_;  // by a call with its number
     std::string asked_;                        // by the last HALT, in lower case
     SourcePlace asked_place_;                  // of that HALT
@@ -137,6 +163,7 @@ ToolPath Walk::run(const Context& context) {
         }
     }
     check_end({program_.chunks.back().file, program_.chunks.back().end_line});
+    if (path_.uses.empty()) use_tool(ProgramChunk().operation);
     if (next != scene_.chunks.size()) {
         log_.add(
             FindingKind::chunk_order, {},
@@ -160,6 +187,15 @@ void Walk::enter(const ProgramChunk& chunk) {
     }
     direction_ = static_cast<std::uint32_t>(scene_.chunks[chunk_].orientation);
     take_tool(scene_.chunks[chunk_].tool, place);
+    use_tool(chunk.operation);
+}
+
+void Walk::use_tool(const std::string& operation) {
+    const ToolUse use{operation, tool_};
+    const auto found = std::find(path_.uses.begin(), path_.uses.end(), use);
+    use_ = static_cast<std::uint32_t>(found - path_.uses.begin());
+    if (found == path_.uses.end()) path_.uses.push_back(use);
+    if (std::exchange(is_changed_, false)) path_.tool_changes.push_back(use_);
 }
 
 // A person is told which tool it is, and how long it must be.
@@ -185,7 +221,8 @@ void Walk::check_asked(const CuttingTool& tool, SourcePlace place) {
 void Walk::take_tool(std::uint16_t number, SourcePlace place) {
     std::uint32_t index = 0;
     while (index + 1 < machine_.tools.size() && machine_.tools[index].number != number) ++index;
-    if (!has_tool_ || index != tool_) check_asked(machine_.tools[index], place);
+    is_changed_ = !has_tool_ || index != tool_;
+    if (is_changed_) check_asked(machine_.tools[index], place);
     has_tool_ = true;
     tool_ = index;
     asked_.clear();
@@ -266,7 +303,7 @@ JointSweep Walk::sweep_to(const ProgramStep& step, SourcePlace place) {
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) largest = std::max(largest, std::abs(to[axis] - from[axis]));
     const double step_angle = std::min(turn_step, pose_step / lever);
     const auto count = static_cast<std::size_t>(std::ceil(std::min(largest, 100.0) / step_angle)) + 1;
-    JointSweep sweep{{}, place, tool_, seconds_of(robot_.ranges, program_.states[step.state], from, to), false};
+    JointSweep sweep{{}, place, tool_, seconds_of(robot_.ranges, program_.states[step.state], from, to), false, use_};
     sweep.poses.reserve(count);
     for (std::size_t k = 1; k <= count; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(count);
@@ -341,13 +378,14 @@ void Walk::take_line(const ProgramStep& step) {
                                                     {step.values[3], step.values[4], step.values[5]}});
     const Pose from = forward(robot_.geometry, joints_) * tool_said;
     const TipPose before = tip_pose();
-    if (!is_lost_) follow_line(from, to, tool_said, step, state.feed);
+    AxisMotion motion;
+    if (!is_lost_) motion = follow_line(from, to, tool_said, step, state.feed);
     const Pose flange = to * inverse(tool_said);
     const Pose tip = robot_.base_in_cell * (flange * tool_arm(robot_, machine_.spindle, tool()).tip_in_flange);
     const Pose setup = setup_in_cell();
     if (!follows_line_) is_aligned(before.tool_axis, step.place);
     const Vec3 start = follows_line_ && !path_.lines.empty() ? path_.lines.back().to : before.tip;
-    add_line(start, apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2)), step, state);
+    add_line(start, {apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2))}, step, state, motion);
     follows_line_ = true;
 }
 
@@ -362,30 +400,36 @@ bool Walk::is_aligned(Vec3 tool_axis, SourcePlace place) {
     return false;
 }
 
-void Walk::add_line(Vec3 from, Vec3 to, Vec3 tool_axis, const ProgramStep& step, const ModalState& state) {
+void Walk::add_line(Vec3 from, const TipPose& to, const ProgramStep& step, const ModalState& state,
+                    const AxisMotion& motion) {
     TipLine line{from,
-                 to,
+                 to.tip,
                  step.place,
                  chunk_,
                  tool_,
                  direction_,
                  state.feed,
-                 state.acceleration,
+                 std::min(state.acceleration, motion.acceleration),
                  step.is_rounded ? state.rounding : 0,
-                 is_aligned(tool_axis, step.place),
+                 is_aligned(to.tool_axis, step.place),
                  follows_line_,
                  signals_.in_chunk(),
-                 step.hole};
+                 step.hole,
+                 use_,
+                 motion.first,
+                 motion.last};
     path_.order.push_back({true, path_.lines.size()});
     path_.lines.push_back(line);
 }
 
-void Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, const ProgramStep& step, double feed) {
+AxisMotion Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, const ProgramStep& step,
+                             double feed) {
     const Turn turn = turn_between(from, to);
     const double way = norm(to.shift - from.shift);
     const double parts = std::max(way / pose_step, turn.angle / turn_step);
     const auto count = static_cast<std::size_t>(std::ceil(std::min(parts, 1e5))) + (parts > 0 ? 0 : 1);
     const Pose flange_in_tip = inverse(tool_said);
+    AxisMotion motion;
     for (std::size_t k = 1; k <= count; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(count);
         Pose tip = k == count ? to : turned(from, turn, share);
@@ -394,11 +438,12 @@ void Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, 
         if (!next) {
             log_.add(FindingKind::reach, step.place, "no joints hold the pose in this arm configuration");
             is_lost_ = true;
-            return;
+            return motion;
         }
         const Joints before = joints_;
         joints_ = *next;
         check_speed(before, way / static_cast<double>(count), feed, step.place);
+        add_step(before, joints_, way / static_cast<double>(count), k == 1, limits_, motion);
         arm_.check_joints(joints_, step.place);
         arm_.check_singularity(joints_, step.place);
         since_bodies_ += way / static_cast<double>(count);
@@ -406,6 +451,7 @@ void Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_said, 
         arm_.check_bodies(joints_, tool(), step.place);
         since_bodies_ = 0;
     }
+    return motion;
 }
 
 void Walk::check_speed(const Joints& before, double way, double feed, SourcePlace place) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
+#include <utility>
 
 #include "base/text.h"
 #include "cam/cell/machine_bodies.h"
@@ -54,15 +55,17 @@ class DeepWay {
 
 class StockMilling {
  public:
-    StockMilling(StockModel& stock_model, const ReplayScene& scene, FindingLog& log)
+    StockMilling(StockModel& stock_model, const ReplayScene& scene, std::size_t lines, FindingLog& log)
         : stock_model_(stock_model), scene_(scene), machine_(*scene.cell->machine), log_(log), holes_(scene, log) {
         for (const CuttingTool& tool : machine_.tools) cutters_.push_back(cutter_of(tool));
+        figures_.lines.resize(lines);
     }
-    void take_line(const TipLine& line, const std::vector<Vec3>& way);
+    // `index` is that of the line in the path.
+    void take_line(const TipLine& line, std::size_t index, const std::vector<Vec3>& way);
     void take_sweep(const JointSweep& sweep);
-    const MillingFigures& finish() {
+    MillingFigures finish() {
         figures_.holes = holes_.finish();
-        return figures_;
+        return std::move(figures_);
     }
 
  private:
@@ -84,7 +87,7 @@ class StockMilling {
     MillingFigures figures_;
 };
 
-void StockMilling::take_line(const TipLine& line, const std::vector<Vec3>& way) {
+void StockMilling::take_line(const TipLine& line, std::size_t index, const std::vector<Vec3>& way) {
     const CuttingTool& tool = machine_.tools[line.tool];
     check_bounds(line, tool);
     if (!line.is_aligned) return;
@@ -99,13 +102,14 @@ void StockMilling::take_line(const TipLine& line, const std::vector<Vec3>& way) 
         if (cut.deep_mm2 > 0) all.deep_mm2 = std::max(all.deep_mm2, deep_mm2);
     }
     const double length = norm(line.to - line.from);
-    const bool is_rapid = line.feed > 1.001 * tool.feed_max_mm_per_s;
+    const bool is_link = is_rapid(line, tool);
     figures_.removed_mm3 += all.volume;
-    if (is_rapid) ++figures_.rapids;
-    if (!is_rapid) figures_.feed_mm += length;
-    if (!is_rapid && !all.touches) figures_.air_mm += length;
+    figures_.lines[index] = {all.touches, all.volume};
+    if (is_link) ++figures_.rapids;
+    if (!is_link) figures_.feed_mm += length;
+    if (!is_link && !all.touches) figures_.air_mm += length;
     if (all.touches) ++figures_.cuts;
-    if (all.touches && is_rapid) {
+    if (all.touches && is_link) {
         log_.add(FindingKind::rapid_in_foam, line.place, all.depth, all.volume, [&] {
             return "a rapid of " + fixed(line.feed, 1) + " mm/s removes foam " + fixed(all.depth, 2) + " mm deep";
         });
@@ -262,7 +266,7 @@ std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const 
 
 MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const ReplayScene& scene, bool is_worst,
                           FindingLog& log, const Context& context) {
-    StockMilling milling(stock_model, scene, log);
+    StockMilling milling(stock_model, scene, path.lines.size(), log);
     std::size_t done = 0;
     for (const PathPart& part : path.order) {
         if (done++ % 256 == 0) {
@@ -275,9 +279,9 @@ MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const R
         }
         const TipLine& line = path.lines[part.index];
         if (is_worst) {
-            milling.take_line(line, rounded_way(path.before(part.index), line, path.after(part.index)));
+            milling.take_line(line, part.index, rounded_way(path.before(part.index), line, path.after(part.index)));
         } else {
-            milling.take_line(line, {line.from, line.to});
+            milling.take_line(line, part.index, {line.from, line.to});
         }
     }
     context.progress("moves carved", done, path.order.size());

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "base/context.h"
+#include "cam/cell/cutting_tool.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/hole_check.h"
 #include "sim/replay/scene.h"
@@ -16,6 +18,12 @@
 
 namespace qchopper {
 
+// What a line does to the foam.
+struct LineCut {
+    bool removes = false;  // more than 0.01 mm of foam
+    double removed_mm3 = 0;
+};
+
 struct MillingFigures {
     double removed_mm3 = 0;
     double feed_mm = 0;      // length of lines at the feed of cuts: not faster than the tool's window
@@ -23,7 +31,13 @@ struct MillingFigures {
     std::size_t cuts = 0;    // lines that remove foam
     std::size_t rapids = 0;  // lines above the tool's window, and joint moves
     HoleFigures holes;
+    std::vector<LineCut> lines;  // of each line of the path
 };
+
+// Whether a line is faster than the window of its tool: it may remove nothing.
+inline bool is_rapid(const TipLine& line, const CuttingTool& tool) {
+    return line.feed > 1.001 * tool.feed_max_mm_per_s;
+}
 
 // Is `is_worst` true, corners that may be rounded are: the foam outside of the parabola stays. Throws Cancelled.
 MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const ReplayScene& scene, bool is_worst,

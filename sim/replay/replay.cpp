@@ -125,13 +125,14 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     ReplayReport report;
     check_flush_faces(scene, log);
     const ToolPath path = walk_machine(program, scene, log, context);
-    report.time = time_of(path);
+    report.time = time_of(path, motion_limits(*scene.cell->machine));
     report.largest_rounding = largest_rounding(path);
     std::vector<Vec3> tool_axes;
     for (const SceneOrientation& orientation : scene.orientations) tool_axes.push_back(orientation.tool_axis);
     StockModel stock_model(scene.block, tool_axes, options.cell);
     if (scene.before != nullptr) stock_model.start_from(*scene.before);
     report.milling = mill_stock(stock_model, path, scene, options.is_worst, log, context);
+    report.account = account_of(path, report.time, report.milling, *scene.cell->machine);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
     check_beside_flush_faces(path, scene, log, context);
     report.largest_gouge = gouges.largest;

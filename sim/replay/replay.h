@@ -18,6 +18,7 @@
 #include "sim/replay/mill_stock.h"
 #include "sim/replay/path_time.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/time_account.h"
 #include "sim/replay/volumes.h"
 
 namespace qchopper {
@@ -47,6 +48,7 @@ struct ReplayReport {
     LeftoverFigures leftover;  // of the last part: the piece must be there after it
     MillingFigures milling;
     PathTime time;
+    TimeAccount account;
     // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
     std::vector<float> deviation;
     StockRecord left;  // after every part but the last

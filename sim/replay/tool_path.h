@@ -4,11 +4,14 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
+#include "cam/cell/arm.h"
 #include "sim/program/parsed_program.h"
 #include "sim/program/rounded_corner.h"
 
@@ -22,6 +25,9 @@ struct SignalState {
     bool extraction_is_on = false;
 };
 
+// By how much each joint changes while the tip goes on by one mm, radians/mm.
+using JointRates = std::array<float, axes_of_arm>;
+
 // A straight line of the tip.
 struct TipLine {
     Vec3 from;
@@ -31,12 +37,15 @@ struct TipLine {
     std::uint32_t tool = 0;         // index in CellMachine::tools
     std::uint32_t orientation = 0;  // index in ReplayScene::orientations
     double feed = 0;
-    double acceleration = 0;
+    double acceleration = 0;    // of the tip: $ACC.CP, or less where an axis allows less (path_time.h)
     double rounding = 0;        // of the corner at its end; 0: it is exact
     bool is_aligned = true;     // the tool axis is along the direction
     bool follows_line = false;  // it begins where the line before it ends
     SignalState signals;        // as the chunk itself has switched them
     std::uint32_t hole = 0;     // that a comment of the program names for it; 0: none
+    std::uint32_t use = 0;      // index in ToolPath::uses
+    JointRates first_rates{};   // where it begins
+    JointRates last_rates{};    // where it ends
 };
 
 // The tool on the way of a joint move.
@@ -51,7 +60,15 @@ struct JointSweep {
     std::uint32_t tool = 0;
     double seconds = 0;
     bool is_checked_only =
-        false;  // not gone: a comment says that the joint move from home to the chunk's start is free
+        false;              // not gone: a comment says that the joint move from home to the chunk's start is free
+    std::uint32_t use = 0;  // index in ToolPath::uses: of its chunk, or of the chunk before it
+};
+
+// A tool in a kind of operation, as the comments of the chunks say it.
+struct ToolUse {
+    std::string operation;   // ProgramChunk::operation
+    std::uint32_t tool = 0;  // index in CellMachine::tools
+    bool operator==(const ToolUse&) const = default;
 };
 
 // One or the other, in the order of execution.
@@ -64,6 +81,8 @@ struct ToolPath {
     std::vector<TipLine> lines;
     std::vector<JointSweep> sweeps;
     std::vector<PathPart> order;
+    std::vector<ToolUse> uses;                // each once, in the order of first use; at least one
+    std::vector<std::uint32_t> tool_changes;  // index in `uses` of the first chunk with the tool, for each change
 
     // The line that ends where line i begins, and the one that begins where it ends; nullptr: there is none.
     const TipLine* before(std::size_t i) const { return i > 0 && lines[i].follows_line ? &lines[i - 1] : nullptr; }

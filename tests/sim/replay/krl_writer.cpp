@@ -42,7 +42,8 @@ class Writer {
         std::vector<ProgramFile> files{{"qc_1.src", main_text()},
                                        {"qc_1.dat", "DEFDAT qc_1\r\n;nothing\r\nENDDAT\r\n"}};
         for (std::size_t i = 0; i < job_.chunks.size(); ++i) {
-            files.push_back({name(i) + ".src", head(name(i)) + chunk_text(job_.chunks[i]) + "END\r\n"});
+            files.push_back({name(i) + ".src",
+                             head(name(i)) + operation_text(job_.chunks[i]) + chunk_text(job_.chunks[i]) + "END\r\n"});
         }
         return files;
     }
@@ -54,6 +55,9 @@ class Writer {
     }
     static std::string head(const std::string& name) {
         return "&ACCESS RVP\r\n&REL 1\r\n&PARAM EDITMASK = *\r\nDEF " + name + "( )\r\n";
+    }
+    static std::string operation_text(const WrittenChunk& chunk) {
+        return chunk.operation.empty() ? "" : ";operation " + chunk.operation + "\r\n";
     }
     const CuttingTool& tool(std::uint16_t number) const {
         for (const CuttingTool& tool : machine_.tools) {

@@ -22,6 +22,7 @@ struct WrittenChunk {
     std::size_t orientation = 0;
     double rpm = 15000;
     std::vector<WrittenMove> moves;  // the first is above the foam: a PTP leads there
+    std::string operation = {};      // empty: no comment says it
 };
 
 struct WrittenJob {
