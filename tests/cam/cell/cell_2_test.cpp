@@ -512,6 +512,7 @@ TEST(CellCheck, WhatIsMeasuredMayBeDispatched) {
                                        std::pair{"length_measured = false", "length_measured = true"}}) {
             while (text.find(from) != std::string::npos) text = replaced(text, from, to);
         }
+        text = replaced(text, "[program]\n", "[program]\ninterpolation_cycle = 0.012\ntool_change_time = 90\n");
         const CellCheck check = check_cell(parse_cell(text, "cell.toml"));
         EXPECT_TRUE(check.may_be_dispatched());
         EXPECT_TRUE(check.uncertain.empty());
