@@ -230,9 +230,17 @@ TEST_P(TimeAccountOf, NoAxisExceedsItsAcceleration) {
 // A row of the script: its numbers in the order of COLUMNS.
 struct ReferenceRow {
     std::uint16_t tool = 0;
-    double at_feed_s = 0, link_s = 0, acceleration_s = 0, joint_move_s = 0, tool_change_s = 0;
-    double at_feed_mm = 0, link_mm = 0;
-    std::size_t lines = 0, stops = 0, short_lines = 0, tool_changes = 0;
+    double at_feed_s = 0;
+    double link_s = 0;
+    double acceleration_s = 0;
+    double joint_move_s = 0;
+    double tool_change_s = 0;
+    double at_feed_mm = 0;
+    double link_mm = 0;
+    std::size_t lines = 0;
+    std::size_t stops = 0;
+    std::size_t short_lines = 0;
+    std::size_t tool_changes = 0;
     std::string operation;
 };
 
