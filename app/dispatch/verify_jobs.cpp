@@ -80,6 +80,7 @@ void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell
         context);
     if (stock_left != nullptr) *stock_left = std::move(proof.stock_left);
     verdict.figures = std::move(proof.figures);
+    verdict.time = std::move(proof.time);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
     verdict.findings_left_out = proof.findings_left_out;
     verdict.notes = std::move(proof.notes);

@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "app/jobs/time_fields.h"
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json_fields.h"
@@ -34,7 +35,7 @@ void fields(V& v, T& finding) {
 template <class V, Of<JobVerdict> T>
 void fields(V& v, T& verdict) {
     v.constant("format", "qchopper verdict", "is not a qchopper verdict");
-    v.version("schema", 2);
+    v.version("schema", 3);
     v("piece", verdict.piece);
     v.object("job", [&](auto& job) {
         job("name", verdict.job);
@@ -50,6 +51,7 @@ void fields(V& v, T& verdict) {
     });
     v("positive", verdict.is_positive);
     v("figures", verdict.figures);
+    v("time", verdict.time);
     v("findings", verdict.findings);
     v("findings_left_out", verdict.findings_left_out);
     v("notes", verdict.notes);

@@ -13,6 +13,7 @@
 #include "app/report/report_json.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
+#include "app/report/time_report.h"
 #include "app/report/workholding_report.h"
 #include "app/store/project_lines.h"
 #include "base/printable.h"
@@ -62,6 +63,16 @@ std::vector<std::string> missing_programs(const PreparedProject& prepared) {
                             "; its job goes to a simulated cell only");
     }
     return sentences;
+}
+
+// Of all jobs, those that were kept too.
+std::vector<ProofTime> times_of(const PreparedProject& prepared) {
+    std::vector<ProofTime> rows;
+    for (const PieceReport& piece : prepared.pieces) {
+        for (const JobVerdict& verdict : piece.verdicts)
+            rows.insert(rows.end(), verdict.time.begin(), verdict.time.end());
+    }
+    return merged(rows);
 }
 
 // "sawn": the saw alone makes it, and it has no job; "none": it has none because it does not fit.
@@ -156,6 +167,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     if (prepared.project.review) {
         for (const std::string& line : review_lines(*prepared.project.review)) lines.push_back(line);
     }
+    if (const std::string line = time_line(times_of(prepared)); !line.empty()) lines.push_back(line);
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PieceReport& p) { return !p.job.empty(); });
     const auto only_sawn = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
@@ -197,6 +209,7 @@ Document document(const PreparedProject& prepared) {
               {"fragments", json_of(p.fragment_list)},
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};
+    if (prepared.has_programs()) add_time(json, times_of(prepared));
     add_scan(json, p);
     return compose(json);
 }

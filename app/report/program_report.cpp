@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report_json.h"
+#include "app/report/time_report.h"
 #include "base/printable.h"
 #include "base/text.h"
 
@@ -22,11 +23,13 @@ std::size_t drilled_holes(const PieceReport& piece) {
 }
 
 Json verdict_json(const JobVerdict& verdict) {
-    return {{"job", verdict.job},
-            {"positive", verdict.is_positive},
-            {"figures", figures_json(verdict)},
-            {"findings", verdict.findings.size() + verdict.findings_left_out},
-            {"notes", verdict.notes}};
+    Json json{{"job", verdict.job},
+              {"positive", verdict.is_positive},
+              {"figures", figures_json(verdict)},
+              {"findings", verdict.findings.size() + verdict.findings_left_out},
+              {"notes", verdict.notes}};
+    add_time(json, verdict.time);
+    return json;
 }
 
 // What the proof says against the program of a piece; empty: nothing.

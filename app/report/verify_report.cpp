@@ -8,6 +8,7 @@
 #include "app/report/columns.h"
 #include "app/report/program_report.h"
 #include "app/report/report_json.h"
+#include "app/report/time_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -34,17 +35,19 @@ Json finding_json(const ProofFinding& finding) {
 
 Json job_json(const VerifiedJob& job) {
     const JobVerdict& v = job.verdict;
-    return {{"piece", v.piece},
-            {"job", job.file.string()},
-            {"sha256", to_hex(v.job_sha256)},
-            {"cell", v.cell},
-            {"cell_sha256", to_hex(v.cell_sha256)},
-            {"positive", v.is_positive},
-            {"figures", figures_json(v)},
-            {"findings", list_of(v.findings, finding_json)},
-            {"findings_left_out", v.findings_left_out},
-            {"notes", v.notes},
-            {"verdict", verdict_file(job.file).string()}};
+    Json json{{"piece", v.piece},
+              {"job", job.file.string()},
+              {"sha256", to_hex(v.job_sha256)},
+              {"cell", v.cell},
+              {"cell_sha256", to_hex(v.cell_sha256)},
+              {"positive", v.is_positive},
+              {"figures", figures_json(v)},
+              {"findings", list_of(v.findings, finding_json)},
+              {"findings_left_out", v.findings_left_out},
+              {"notes", v.notes},
+              {"verdict", verdict_file(job.file).string()}};
+    add_time(json, v.time);
+    return json;
 }
 
 void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
@@ -52,6 +55,12 @@ void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
     for (std::size_t i = 0; i < shown; ++i) text.push_back("  " + describe(verdict.findings[i]));
     const std::size_t more = verdict.findings.size() - shown + verdict.findings_left_out;
     if (more > 0) text.push_back("  and " + counted(more, "more finding"));
+}
+
+std::vector<ProofTime> times_of(const VerifyAnswer& answer) {
+    std::vector<ProofTime> rows;
+    for (const VerifiedJob& job : answer) rows.insert(rows.end(), job.verdict.time.begin(), job.verdict.time.end());
+    return merged(rows);
 }
 
 }  // namespace
@@ -69,6 +78,7 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
         add_findings(job.verdict, text);
         for (const std::string& note : job.verdict.notes) text.push_back("  Note: " + note + ".");
     }
+    if (const std::string line = time_line(times_of(answer)); !line.empty()) text.push_back(line);
     const auto positive = static_cast<std::size_t>(
         std::count_if(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; }));
     text.push_back(std::to_string(positive) + " of " + counted(answer.size(), "job") +
@@ -77,9 +87,11 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
 }
 
 Document document(const VerifyAnswer& answer) {
-    return compose({{"schema", "qchopper-verify-1"},
-                    {"all_positive", is_all_positive(answer)},
-                    {"jobs", list_of(answer, job_json)}});
+    Json json{{"schema", "qchopper-verify-1"},
+              {"all_positive", is_all_positive(answer)},
+              {"jobs", list_of(answer, job_json)}};
+    add_time(json, times_of(answer));
+    return compose(json);
 }
 
 }  // namespace qchopper

@@ -57,6 +57,26 @@ std::string proof_of(const ProgramInput& input) {
                          "The piece as the replay left it, coloured by its deviation from the piece as ordered.");
 }
 
+// Where the machine time goes: one row for each kind of operation and tool.
+std::string time_of(const ProofResult& proof) {
+    if (proof.time.empty()) return {};
+    const auto minutes = [](double seconds) { return number(seconds / 60, 1); };
+    Rows rows{{word("time, min"), right("tool"), right("cutting"), right("air"), right("links"),
+               right("acceleration, stops"), right("joint moves"), right("tool changes"), right("all"), right("litres"),
+               right("cm3/s"), right("tool may")}};
+    for (const ProofTime& time : proof.time) {
+        const double rate = time.line_s() > 0 ? time.removed_mm3 / time.line_s() : 0;
+        rows.push_back({word(time.operation), right(std::to_string(time.tool)), minutes(time.cutting_s),
+                        minutes(time.air_s), minutes(time.link_s), minutes(time.acceleration_s),
+                        minutes(time.joint_move_s), minutes(time.tool_change_s), minutes(time.seconds()),
+                        number(time.removed_mm3 * 1e-6, 2), number(rate * 1e-3, 1),
+                        number(time.tool_mm3_per_s * 1e-3, 1)});
+    }
+    return table(rows) + paragraph(
+                             "Air: at feed where nothing is removed. The rate is that of lines, without joint "
+                             "moves and tool changes.");
+}
+
 }  // namespace
 
 std::string program_section(const JobInput& input) {
@@ -65,7 +85,7 @@ std::string program_section(const JobInput& input) {
         return section(title, paragraph("This job holds no robot program: " + input.no_program_because + "."));
     }
     return section(title, left_out_of(input.program->program, input.setup.tools) + proof_of(*input.program) +
-                              chunks_of(input.program->program));
+                              time_of(input.program->proof) + chunks_of(input.program->program));
 }
 
 }  // namespace qchopper

@@ -91,6 +91,22 @@ TEST(VerifyJobs, TheScallopHeightIsThatOfTheCellFile) {
     EXPECT_EQ(kinds_of(judged(job, coarse)), "");
 }
 
+TEST(VerifyJobs, TheAccountOfTheTimeAddsUpAndKnowsTheOperations) {
+    const JobVerdict verdict = judged(proven_job(kuka).job, proven_job(kuka).cell);
+    ASSERT_FALSE(verdict.time.empty());
+    EXPECT_EQ(verdict.time.front().operation, "roughing");
+    double seconds = 0;
+    double mm = 0;
+    for (const ProofTime& time : verdict.time) {
+        EXPECT_NE(time.operation, "unknown");
+        EXPECT_GT(time.lines, 0U);
+        seconds += time.seconds();
+        mm += time.cutting_mm + time.air_mm + time.link_mm;
+    }
+    EXPECT_NEAR(seconds, verdict.figure("time_s"), 1e-6 * seconds);
+    EXPECT_NEAR(mm, 1000 * verdict.figure("path_m"), 1e-6 * mm);
+}
+
 TEST(VerifyJobs, MovesThatTheProgramLeavesOutStandInTheVerdict) {
     ReadJob job = proven_job(kuka).job;
     EXPECT_TRUE(proven_job(kuka).verdict.notes.empty());

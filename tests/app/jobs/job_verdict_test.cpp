@@ -21,6 +21,15 @@ JobVerdict some_verdict() {
     verdict.cell_sha256.bytes[3] = 7;
     verdict.program_version = "0.1.0";
     verdict.figures = {{"max_gouge_mm", "largest gouge", 0.0625, "mm", 3}, {"reachable", "reachable", 96.25, "%", 1}};
+    verdict.time.resize(2);
+    verdict.time[0].operation = "roughing";
+    verdict.time[0].tool = 3;
+    verdict.time[0].tool_mm3_per_s = 24000;
+    verdict.time[0].cutting_s = 17.5;
+    verdict.time[0].short_lines = 9;
+    verdict.time[1].operation = "fine finishing";
+    verdict.time[1].tool_change_s = 60;
+    verdict.time[1].tool_changes = 1;
     verdict.findings = {{"rapid_in_foam", "qc_2_001.src", 17, "a rapid move removes foam"},
                         {"leftover", "", 0, "foam"}};
     verdict.findings_left_out = 4;
@@ -67,9 +76,11 @@ TEST(JobVerdict, StandsBesideTheJob) {
 TEST(JobVerdict, ChangesByHandAreRefused) {
     const std::string text = to_json(some_verdict());
     EXPECT_NE(refusal(with(text, "\"positive\": false", "\"positive\": true")).find("contradicts"), std::string::npos);
-    EXPECT_NE(refusal(with(text, "\"schema\": 2", "\"schema\": 1")).find("schema"), std::string::npos);
+    EXPECT_NE(refusal(with(text, "\"schema\": 3", "\"schema\": 2")).find("schema"), std::string::npos);
     EXPECT_NE(refusal(with(text, "qchopper verdict", "qchopper job")).find("format"), std::string::npos);
     EXPECT_NE(refusal(with(text, "\"decimals\": 3", "\"decimals\": 30")).find("decimals"), std::string::npos);
+    EXPECT_NE(refusal(with(text, "\"cutting_s\": 17.5", "\"cutting_s\": -17.5")).find("cutting_s"), std::string::npos);
+    EXPECT_NE(refusal(with(text, "\"short_lines\": 9", "\"short_lines\": 9.5")).find("short_lines"), std::string::npos);
     EXPECT_NE(refusal(with(text, "\"line\": 17", "\"line\": -1")).find("line"), std::string::npos);
     EXPECT_NE(refusal(with(text, "\"no arm posture reaches 6 mm of its cuts\"", "6")).find("notes"), std::string::npos);
     EXPECT_NE(refusal(text + " ").find("the one form"), std::string::npos);

@@ -44,6 +44,9 @@ class KeptPrograms : public testing::Test {
         program.program.part = {part, 2, part > 1 ? std::optional(before) : std::nullopt};
         program.texts[program.program.entry] = "DEF part " + std::to_string(part);
         program.proof.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
+        program.proof.time.resize(1);
+        program.proof.time[0].operation = "roughing";
+        program.proof.time[0].cutting_s = 77;
         program.tools = {7};
         program.deviation_picture = {1, 2, part < 2 ? std::uint8_t{3} : std::uint8_t{4}};
         input_.program = program;
@@ -54,6 +57,7 @@ class KeptPrograms : public testing::Test {
         verdict.cell_sha256 = cell_;
         verdict.program_version = version_;
         verdict.figures = program.proof.figures;
+        verdict.time = program.proof.time;
         verdict.notes = {describe(program.program.moves_left_out)};
         verdict.is_positive = true;
         write_verdict(file(part), verdict);
@@ -92,6 +96,7 @@ TEST_F(KeptPrograms, AreThoseThatWereWritten) {
     ASSERT_EQ(last.proof.notes.size(), 1U) << "what is left out is said again";
     EXPECT_NE(last.proof.notes.front().find("6 mm of its cuts: operation 2: link 5"), std::string::npos);
     EXPECT_EQ(last.proof.time_s, 77);
+    EXPECT_EQ(last.proof.time, input_.program->proof.time);
     EXPECT_EQ(last.proof.length_mm, 1500);
     ProgramInput again = last.input;
     again.program.part.before = input_.program->program.part.before;

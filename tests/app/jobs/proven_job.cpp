@@ -73,6 +73,7 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     made.job = parse_job(job_file(input), "A.qjob");
     made.verdict = judged(made.job, made.cell);
     EXPECT_EQ(made.verdict.figures, programs.parts.front().proof.figures) << "verify repeats the proof of prepare";
+    EXPECT_EQ(made.verdict.time, programs.parts.front().proof.time);
     EXPECT_EQ(made.verdict.findings, programs.parts.front().proof.findings);
     made.input = std::move(input);
     return made;

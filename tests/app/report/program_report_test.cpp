@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/report/time_report.h"
 #include "app/report/verify_report.h"
 
 namespace qchopper {
@@ -36,6 +37,64 @@ TEST(ProgramReport, MovesThatAreLeftOutAreSaidOncePerPieceAndStandInEveryDocumen
     const auto verified = nlohmann::json::parse(text_of(document(answer)));
     EXPECT_EQ(verified["jobs"][0]["notes"][0], piece.verdicts[0].notes[0]);
     EXPECT_EQ(lines(answer)[2], "  Note: " + piece.verdicts[0].notes[0] + ".");
+}
+
+ProofTime row(const std::string& operation, std::uint16_t tool, double cutting_s, double removed_mm3) {
+    ProofTime time;
+    time.operation = operation;
+    time.tool = tool;
+    time.tool_mm3_per_s = 1000.0 * tool;
+    time.cutting_s = cutting_s;
+    time.acceleration_s = 0.25 * cutting_s;
+    time.removed_mm3 = removed_mm3;
+    time.stops = 5;
+    return time;
+}
+
+TEST(TimeReport, SaysWhereTheHoursOfAllJobsGo) {
+    EXPECT_EQ(time_line({}), "");
+    ProofTime finishing = row("fine finishing", 3, 7200, 1e3);
+    finishing.joint_move_s = 360;
+    finishing.tool_change_s = 720;
+    finishing.link_s = 36;
+    finishing.air_s = 3600;
+    // 9 litres at a rate of 24 cm3/s and 3 at 6 take 875 s.
+    const std::vector<ProofTime> rows{row("roughing", 24, 1440, 9e6), finishing, row("roughing", 6, 720, 3e6)};
+    EXPECT_EQ(
+        time_line(rows),
+        "machine time 4.56 h: roughing 0.75, finishing 0.00, fine finishing 3.81, drilling 0.00; cutting 2.60, "
+        "air 1.00, links 0.01, acceleration and stops 0.65, joint moves 0.10, tool changes 0.20; roughing removes "
+        "12.00 l at 4.4 cm3/s, its tools may 13.7.");
+    const std::string old = time_line({row("unknown", 1, 2880, 1e6)});
+    EXPECT_NE(old.find("drilling 0.00; unknown 1.00; cutting 0.80"), std::string::npos) << old;
+    EXPECT_EQ(old.find("removes"), std::string::npos) << old;
+}
+
+TEST(TimeReport, RowsOfOneOperationAndToolAreAdded) {
+    const std::vector<ProofTime> sums = merged(
+        {row("roughing", 2, 10, 7), row("finishing", 2, 20, 1), row("roughing", 3, 40, 1), row("roughing", 2, 5, 2)});
+    ASSERT_EQ(sums.size(), 3U);
+    EXPECT_EQ(sums[0].operation, "roughing");
+    EXPECT_EQ(sums[0].tool, 2);
+    EXPECT_EQ(sums[0].cutting_s, 15);
+    EXPECT_EQ(sums[0].removed_mm3, 9);
+    EXPECT_EQ(sums[0].stops, 10U);
+    EXPECT_EQ(sums[0].tool_mm3_per_s, 2000);
+    EXPECT_EQ(sums[1].operation, "finishing");
+    EXPECT_EQ(sums[2].tool, 3);
+}
+
+TEST(TimeReport, StandsInEveryDocument) {
+    PieceReport piece = some_report();
+    for (JobVerdict& verdict : piece.verdicts) verdict.time = {row("roughing", 2, 10, 7)};
+    EXPECT_EQ(program_json(piece)["verdicts"][1]["time"][0]["cutting_s"], 10);
+    const VerifyAnswer answer{{"jobs/Q.qjob", piece.verdicts[0]}, {"jobs/R.qjob", piece.verdicts[1]}};
+    const auto verified = nlohmann::json::parse(text_of(document(answer)));
+    EXPECT_EQ(verified["jobs"][0]["time"][0]["cutting_s"], 10);
+    EXPECT_EQ(verified["time"].size(), 1U);
+    EXPECT_EQ(verified["time"][0]["cutting_s"], 20);
+    const std::vector<std::string> text = lines(answer);
+    EXPECT_EQ(text[text.size() - 2].find("machine time 0.01 h:"), 0U) << text[text.size() - 2];
 }
 
 TEST(ProgramReport, ARefusedProgramIsNamedFirst) {

@@ -162,6 +162,26 @@ TEST(SetupSheet, ListsTheToolsThatTheProgramTakesAndNoOther) {
     EXPECT_EQ(row(sheet, "9 |"), "no row 9 |");
 }
 
+TEST(SheetDetails, SayWhereTheMachineTimeGoes) {
+    JobInput input = tilting_job();
+    input.program = ProgramInput{};
+    EXPECT_EQ(row(sheet_details(input), "fine finishing"), "no row fine finishing") << "nothing was replayed";
+    ProofTime time;
+    time.operation = "fine finishing";
+    time.tool = 7;
+    time.tool_mm3_per_s = 24'000;
+    time.cutting_s = 600;
+    time.air_s = 300;
+    time.link_s = 60;
+    time.acceleration_s = 240;
+    time.joint_move_s = 30;
+    time.tool_change_s = 120;
+    time.removed_mm3 = 2.4e6;
+    input.program->proof.time = {time};
+    EXPECT_EQ(row(sheet_details(input), "fine finishing"),
+              "fine finishing | 7 | 10.0 | 5.0 | 1.0 | 4.0 | 0.5 | 2.0 | 22.5 | 2.40 | 2.0 | 24.0");
+}
+
 // The size that a tag states; {0, 0} without one.
 std::pair<int, int> size_in(const std::string& tag) {
     const auto value = [&](const std::string& name) {
