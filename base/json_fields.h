@@ -275,7 +275,10 @@ void take(const Json& json, const std::string& key, T& value) {
 template <class T>
 void take(const Json& json, const std::string& key, std::optional<T>& value) {
     value.reset();
-    if (!is_null(json)) take(json, key, value.emplace());
+    if (is_null(json)) return;
+    T read{};
+    take(json, key, read);
+    value = std::move(read);
 }
 
 template <class T>

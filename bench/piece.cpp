@@ -22,6 +22,8 @@
 #include "sim/replay/gouge.h"
 #include "sim/replay/leftover.h"
 #include "sim/replay/mill_stock.h"
+#include "sim/replay/path_time.h"
+#include "sim/replay/removal_rate_check.h"
 
 namespace {
 
@@ -41,9 +43,23 @@ Setup setup_of_mesh(const ReadJob& job) {
         orientation.tool_axis = normalized(rotate(job.setup.piece_in_setup, orientation.tool_axis));
     }
     setup.up = {0, 0, 1};
-    setup.base.reset();
     setup.piece_in_setup = {};
     return setup;
+}
+
+// The caps of a mesh in setup coordinates, from the planes that the job states.
+void mark_caps(TriangleMesh& mesh, const ReadJob& job) {
+    constexpr double near = 1e-3;
+    mesh.cap_of.assign(mesh.triangles.size(), no_cap);
+    for (const HalfSpace& half_space : job.half_spaces) {
+        const Vec3 point = apply(job.setup.piece_in_setup, half_space.plane.offset * half_space.plane.normal);
+        const Vec3 normal = rotate(job.setup.piece_in_setup, half_space.plane.normal);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto corners = corners_of(mesh, t);
+            const auto is_in_plane = [&](Vec3 p) { return std::abs(dot(p - point, normal)) <= near; };
+            if (std::all_of(corners.begin(), corners.end(), is_in_plane)) mesh.cap_of[t] = half_space.cut;
+        }
+    }
 }
 
 ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMesh& mesh, const Cell& cell) {
@@ -55,14 +71,11 @@ ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMes
         scene.chunks.push_back({"", cell.machine->tools[operation.tool].number, operation.orientation});
         scene.scallop = std::max(operation.scallop, 0.25);
     }
-    const Vec3 size = setup.block.size;
-    scene.block = {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
+    scene.block = setup.block_box();
     scene.spoil = setup.spoil;
     scene.target = &mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto corners = corners_of(mesh, t);
-        const bool is_low = std::all_of(corners.begin(), corners.end(), [](Vec3 p) { return std::abs(p.z) <= 1e-3; });
-        scene.is_unmilled.push_back(is_low && area_vector(mesh, t).z < 0);
+        scene.is_unmilled.push_back(setup.is_unmilled(cap_of(mesh, t)));
     }
     return scene;
 }
@@ -72,10 +85,10 @@ double feed_of(const Operation& operation, MoveKind kind) {
     return kind == MoveKind::cut ? operation.feed : operation.link_feed;
 }
 
-// A file of the program stands for an operation, a line for a move.
-ToolPath lines_of(const Toolpath& path) {
+// Of one operation. A file of the program stands for an operation, a line for a move.
+ToolPath lines_of(const Toolpath& path, std::uint32_t k, double acceleration) {
     ToolPath lines;
-    for (std::uint32_t k = 0; k < path.operations.size(); ++k) {
+    {
         const Operation& operation = path.operations[k];
         std::uint32_t number = 0;
         for (const PathRun& run : operation.runs) {
@@ -89,8 +102,9 @@ ToolPath lines_of(const Toolpath& path) {
                 line.chunk = k;
                 line.tool = static_cast<std::uint32_t>(operation.tool);
                 line.orientation = static_cast<std::uint32_t>(operation.orientation);
-                line.feed = feed_of(operation, move.kind);
-                line.rounding = move.is_rounded ? operation.rounding : 0;
+                line.feed = move.feed > 0 ? move.feed : feed_of(operation, move.kind);
+                line.acceleration = acceleration;
+                line.rounding = move.rounding;
                 line.follows_line = i > 0;
                 line.signals = {true, true, operation.rpm, true};
                 lines.order.push_back({true, lines.lines.size()});
@@ -166,10 +180,48 @@ Toolpath timed_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell
     return make_toolpath(setup, mesh, cell, {}, context);
 }
 
+// One operation after the other, with what each costs.
+MillingFigures mill(const Toolpath& path, const ReplayScene& scene, const Cell& cell, StockModel& stock_model,
+                    FindingLog& log) {
+    MillingFigures sum;
+    PathTime whole;
+    for (std::uint32_t k = 0; k < path.operations.size(); ++k) {
+        const Operation& operation = path.operations[k];
+        const ToolPath lines = lines_of(path, k, cell.machine->program.acceleration);
+        const MillingFigures own = mill_stock(stock_model, lines, scene, true, log, {});
+        check_removal_rate(lines, own.lines, scene, log);
+        const PathTime time = time_of(lines);
+        double at_feed = 0;
+        double links = 0;
+        std::size_t stops = 0;
+        for (const TipLine& line : lines.lines) {
+            const double length = norm(line.to - line.from);
+            (line.feed > operation.feed ? links : at_feed) += length / line.feed;
+            if (!(line.rounding > 0)) ++stops;
+        }
+        const CuttingTool& tool = cell.machine->tools[operation.tool];
+        std::printf(
+            "  %2u %-14s tool %u, direction %zu: %5.0f s: %5.0f at feed, %5.0f links, %5.0f acceleration; %.0f m at "
+            "feed, "
+            "of them air %.0f; %zu lines, %zu exact; %.2f l, %.1f of %.0f cm3/s\n",
+            k + 1, to_word(operation.kind), tool.number, operation.orientation, time.seconds, at_feed, links,
+            time.seconds - at_feed - links, 1e-3 * own.feed_mm, 1e-3 * own.air_mm, lines.lines.size(), stops,
+            1e-6 * own.removed_mm3, 1e-3 * own.removed_mm3 / time.seconds, 1e-3 * tool.removal_mm3_per_s);
+        sum.removed_mm3 += own.removed_mm3;
+        sum.feed_mm += own.feed_mm;
+        sum.air_mm += own.air_mm;
+        whole.seconds += time.seconds;
+        whole.line_mm += time.line_mm;
+    }
+    std::printf("in all %.0f s, %.0f m, %.2f l\n", whole.seconds, 1e-3 * whole.line_mm, 1e-6 * sum.removed_mm3);
+    return sum;
+}
+
 int measure(const std::string& job_file, const std::string& cell_file, double replay_cell) {
     const ReadJob job = parse_job(read_job(job_file), job_file);
     const Cell cell = read_cell(cell_file);
-    const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job.piece);
+    TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job.piece);
+    mark_caps(mesh, job);
     const Setup setup = setup_of_mesh(job);
     const Vec3 size = setup.block.size;
     std::printf("piece %s: %zu faces, block %.0f x %.0f x %.0f\n", job.piece.c_str(), mesh.triangles.size(), size.x,
@@ -188,13 +240,20 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
     lap("toolpath");
     print_operations(path, cell);
     const ReplayScene scene = scene_of(setup, path, mesh, cell);
-    const ToolPath lines = lines_of(path);
     FindingLog log;
     std::vector<Vec3> tool_axes;
     for (const SceneOrientation& orientation : scene.orientations) tool_axes.push_back(orientation.tool_axis);
     StockModel stock_model(scene.block, tool_axes, replay_cell);
-    const MillingFigures carving = mill_stock(stock_model, lines, scene, true, log, {});
+    const MillingFigures carving = mill(path, scene, cell, stock_model, log);
     lap("foam");
+    ToolPath lines;
+    for (std::uint32_t k = 0; k < path.operations.size(); ++k) {
+        const ToolPath own = lines_of(path, k, cell.machine->program.acceleration);
+        for (const TipLine& line : own.lines) {
+            lines.order.push_back({true, lines.lines.size()});
+            lines.lines.push_back(line);
+        }
+    }
     const GougeFigures gouges = find_gouges(lines, scene, 0.01, {});
     lap("gouges");
     const LeftoverFigures left = measure_leftover(stock_model, scene, gouges.depth, {}, {});

@@ -10,7 +10,7 @@
 #include "bench/clock.h"
 #include "bench/specimens.h"
 #include "cam/stock/cl_surface.h"
-#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing/finishing.h"
 #include "segment/mesh/measure.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/shapes.h"

@@ -74,7 +74,7 @@ std::size_t krl_bytes(const Operation& operation, const PathRun& run) {
     std::size_t bytes = around + krl::position(run.start, 2).size();
     double feed = operation.link_feed;
     for (const PathMove& move : run.moves) {
-        bytes += around + krl::position(move.tip, 2).size() + (move.is_rounded ? rounded : 0);
+        bytes += around + krl::position(move.tip, 2).size() + (move.rounding > 0 ? rounded : 0);
         if (feed_of(operation, move.kind) != feed) bytes += speed;
         feed = feed_of(operation, move.kind);
     }
@@ -141,7 +141,7 @@ void measure_one(const Choice& choice, const std::string& name, const std::strin
     figures.record(name, "reading by OpenMesh, CPU time", time_text(reading));
     Toolpath path;
     for (const bool has_fine : {false, true}) {
-        settings.has_fine_finishing = has_fine;
+        settings.fine = has_fine ? FineTools::all : FineTools::none;
         const double before = process_cpu_s();
         path = make_toolpath(setup, *piece.mesh, machine, settings);
         const double made = process_cpu_s();

@@ -1,9 +1,10 @@
 // Glue between folder, import and lock. Everything that can be refused is checked before the scan is imported, which is
-// the long part.
+// the long part. O(bytes of the scan and triangles of its import).
 
 #include "app/engine/make_project.h"
 
 #include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "app/engine/presets.h"
@@ -11,6 +12,7 @@
 #include "app/store/no_cut_surface.h"
 #include "app/store/project_lines.h"
 #include "app/store/replay.h"
+#include "base/error.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
@@ -77,6 +79,28 @@ void follow_cell(OpenProject& project, const ProjectContext& context) {
                   "cell's. To rank for the cell's tilt, prepare the scan again with this cell"});
 }
 
+// --finest-tool and --fine none name the tools that may be used.
+void take_finest_tool(ProjectChoices& choices, const Cell& cell) {
+    const bool has_fine = choices.fine_tools != FineTools::none;
+    if (!choices.tools.empty() || (choices.finest_tool_mm <= 0 && has_fine)) return;
+    if (!cell.machine) {
+        throw InputError(InputFault::use, "the cell file describes no machine, and has one tool",
+                         "leave --finest-tool and --fine out");
+    }
+    const std::vector<CuttingTool>& tools = cell.machine->tools;
+    double least = choices.finest_tool_mm;
+    if (!has_fine) least = std::max(least, tools[finishing_tool(tools, tools[roughing_tool(tools)].diameter)].diameter);
+    if (finishing_tools(tools, least, std::numeric_limits<double>::infinity()).empty()) {
+        throw InputError(InputFault::use,
+                         "no ball-ended tool of the cell has a diameter of " + significant(least, 4) + " mm or more",
+                         "give a smaller diameter to --finest-tool");
+    }
+    for (const CuttingTool& tool : tools) {
+        if (tool.shape != ToolShape::ball || tool.diameter >= least) choices.tools.push_back(tool.number);
+    }
+    std::ranges::sort(choices.tools);
+}
+
 }  // namespace
 
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context) {
@@ -86,6 +110,7 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     std::optional<Cell> cell;
     if (choices.cell_file) {
         cell = read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
+        take_finest_tool(choices, *cell);      // likewise
         with_tools(*cell, choices.tools);      // likewise
         draft.cell_file = read_file(*choices.cell_file, settings_limit);
     }

@@ -152,7 +152,8 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
     const ProgramSource source{input.piece,        input.setup,           envelope, input.piece_no, input.caps,
                                orders.cell_sha256, orders.program_version};
     if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
-    return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context);
+    const FineTools fine = orders.project.has_all_fine_tools ? FineTools::all : FineTools::worthwhile;
+    return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, fine);
 }
 
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.

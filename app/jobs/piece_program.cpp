@@ -193,13 +193,14 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
 }
 
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
-                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context) {
+                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
     const Setup& setup = piece_setup.setup();
     const Cell planned = with_tools(cell, setup.tools);
     PostedProgram posted;
     MadePath made;
     ToolpathSettings settings;
-    settings.scallop = settings.fine_scallop = cell.machine->program.scallop;
+    settings.scallop = cell.machine->program.scallop;
+    settings.fine = fine;
     const auto make = [&](const ToolpathSettings& asked) {
         StageTimer stage(context, "toolpaths made");
         made = make_path(piece, piece_setup, planned, caps, asked, context);

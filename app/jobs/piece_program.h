@@ -13,6 +13,7 @@
 #include "base/context.h"
 #include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
+#include "cam/toolpath/toolpath_settings.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
@@ -37,7 +38,8 @@ std::string no_programs_for(const Cell& cell);
 // no_programs_for(cell) is empty. Where the machine cannot follow the toolpath there is no program, and none_because
 // says why. Throws Cancelled.
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
-                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context);
+                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context,
+                            FineTools fine = FineTools::worthwhile);
 
 // Caps of a piece that gets no program.
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);

@@ -103,6 +103,7 @@ struct Project {
     std::optional<SetupReview> review;  // what setups said of the cuts after the search; nothing: they were not asked
     bool has_programs = true;           // whether jobs are written with robot programs, where the cell allows it
     std::vector<std::uint16_t> tools;   // numbers of those that may be used; empty: all of the cell
+    bool has_all_fine_tools = false;    // small tools finish also what adds little (FineTools::all)
     std::vector<WrittenJob> jobs;       // in the order of the pieces and their parts; none of a piece that does not fit
     bool operator==(const Project&) const = default;
 

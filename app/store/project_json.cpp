@@ -234,6 +234,7 @@ void fields(V& v, T& project) {
     v("programs", project.has_programs);
     v("jobs", project.jobs);
     v.maybe("tools", project.tools);
+    v.maybe("all_fine_tools", project.has_all_fine_tools);
     v.maybe("ignored", project.ignored);
     v.maybe("load", project.load);
     v.maybe("no_cut", project.no_cut);

@@ -78,6 +78,7 @@ Project new_project(const ProjectChoices& choices, const ImportedScan& imported)
     project.fragments = choices.fragments;
     project.load = choices.load;
     project.tools = choices.tools;
+    project.has_all_fine_tools = choices.fine_tools == FineTools::all;
     project.warnings = imported.report.warnings;
     return project;
 }

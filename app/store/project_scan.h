@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/store/project.h"
+#include "cam/toolpath/toolpath_settings.h"
 #include "segment/import/import_scan.h"
 
 namespace qchopper {
@@ -38,6 +39,8 @@ struct ProjectChoices {
     std::filesystem::path folder = {};                    // NAME.qch, to be made
     std::optional<std::filesystem::path> cell_file = {};  // to be copied; nothing: no cell yet
     std::vector<std::uint16_t> tools = {};                // Project::tools
+    double finest_tool_mm = 0;                            // balls of a smaller diameter are none of the tools
+    FineTools fine_tools = FineTools::worthwhile;         // `none` leaves tools out too
     std::optional<std::filesystem::path> plan = {};       // whose cuts are to be made
 };
 

@@ -113,10 +113,16 @@ std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughin
     return *found;
 }
 
-std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter) {
-    return best(
-        tools, [&](const CuttingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
-        [](const CuttingTool& a, const CuttingTool& b) { return a.diameter < b.diameter; });
+std::vector<std::size_t> finishing_tools(const std::vector<CuttingTool>& tools, double least, double largest) {
+    std::vector<std::size_t> balls;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (is_ball(tools[i]) && tools[i].diameter >= least && tools[i].diameter <= largest) balls.push_back(i);
+    }
+    const auto key = [&](std::size_t i) { return std::pair(-tools[i].diameter, tools[i].stick_out); };
+    std::ranges::stable_sort(balls, {}, key);
+    const auto is_equal = [&](std::size_t a, std::size_t b) { return key(a) == key(b); };
+    balls.erase(std::unique(balls.begin(), balls.end(), is_equal), balls.end());
+    return balls;
 }
 
 }  // namespace qchopper

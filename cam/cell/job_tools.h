@@ -28,8 +28,9 @@ Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers);
 std::size_t roughing_tool(const std::vector<CuttingTool>& tools);
 // The largest ball-ended one below a diameter, or else the largest. Throws InputError (config) if there is none.
 std::size_t finishing_tool(const std::vector<CuttingTool>& tools, double roughing_diameter);
-// The smallest ball-ended one below a diameter, if there is one.
-std::optional<std::size_t> fine_tool(const std::vector<CuttingTool>& tools, double finishing_diameter);
+// The ball-ended ones of diameters within bounds, the largest first, of equal ones the shortest; of those that are
+// equal in both the first alone.
+std::vector<std::size_t> finishing_tools(const std::vector<CuttingTool>& tools, double least, double largest);
 
 // "tool 3", "tools 1, 2 and 4". Precondition: there is one.
 std::string describe_tools(const std::vector<std::uint16_t>& numbers);

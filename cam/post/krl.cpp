@@ -36,8 +36,8 @@ std::vector<RunRange> chunk_ranges(const Program& program, const KrlChunks& chun
         std::size_t lines = 0;
         std::size_t bytes = 0;
         for (std::size_t r = 0; r < operation.runs.size(); ++r) {
-            double speed = 0;
-            const KrlText run = chunks.run(operation, operation.runs[r], true, speed);
+            KrlChunks::Stated stated;
+            const KrlText run = chunks.run(operation, operation.runs[r], true, stated);
             if (r == 0 || lines + run.lines() > settings.lines_per_chunk || bytes + run.bytes().size() > max_bytes) {
                 const KrlText alone = chunks.chunk({s, r, 1}, "qc", 0, 1);
                 ranges.push_back({s, r, 0});

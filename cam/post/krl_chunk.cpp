@@ -50,6 +50,15 @@ void set_speed(double speed_mm_s, double& current, KrlText& text) {
     current = speed_mm_s;
 }
 
+// Sets the distance of rounding if it is another one: a line $APO.CDIS. A corner of less than the unit is exact.
+bool set_rounding(double rounding_mm, double& current, KrlText& text) {
+    const double stepped = rounding_unit * std::floor(rounding_mm / rounding_unit + 1e-6);
+    if (!(stepped > 0)) return false;
+    if (stepped != current) text.line("$APO.CDIS = " + krl::number("$APO.CDIS", stepped, 3, 1000.001));
+    current = stepped;
+    return true;
+}
+
 }  // namespace
 
 void begin_program(const std::string& name, KrlText& text) {
@@ -97,7 +106,6 @@ std::string KrlChunks::full_pose(const ProgramOperation& operation, Vec3 tip) co
 }
 
 void KrlChunks::add_settings(const ProgramOperation& operation, KrlText& text) const {
-    const double rounding = rounding_unit * std::floor(operation.rounding / rounding_unit + 1e-6);
     text.line("$ADVANCE = 5");
     add_axis_speeds(text);
     add_tool(operation.tool, text);
@@ -107,7 +115,6 @@ void KrlChunks::add_settings(const ProgramOperation& operation, KrlText& text) c
         text.line(std::string(name) + " = " +
                   krl::number(name, degrees_per_radian * machine_.program.turn_speed, 4, 10'000));
     }
-    text.line("$APO.CDIS = " + krl::number("$APO.CDIS", rounding, 3, 1000.001));
 }
 
 bool KrlChunks::starts_from_home(const RunRange& range) const {
@@ -145,12 +152,11 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
 
 // A place that is stated already is left out; the corner there is rounded only if every move that ends there allows it,
 // and never where a run ends.
-KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, double& speed) const {
-    const bool has_rounding = operation.rounding >= rounding_unit;
+KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, Stated& stated) const {
     KrlText text;
     if (run.hole > 0) text.comment("hole " + std::to_string(run.hole));
     std::string here = krl::position(run.start, point_decimals);
-    set_speed(run.link_speed, speed, text);
+    set_speed(run.link_speed, stated.speed, text);
     text.line(is_first ? full_pose(operation, run.start) : "LIN {" + here + "}");
     const auto position_of = [&](std::size_t i) {
         return i < run.moves.size() ? krl::position(run.moves[i].tip, point_decimals) : std::string();
@@ -159,13 +165,14 @@ KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run,
     for (std::size_t i = 0; i < run.moves.size();) {
         const ProgramMove& move = run.moves[i];
         const std::string own = std::move(next);
-        bool is_rounded = has_rounding && move.is_rounded;
+        double rounding = move.rounding;
         for (next = position_of(++i); next == own; next = position_of(++i)) {
-            is_rounded = is_rounded && run.moves[i].is_rounded;
+            rounding = std::min(rounding, run.moves[i].rounding);
         }
         if (own == here) continue;
-        set_speed(move.speed, speed, text);
-        text.line("LIN {" + own + (is_rounded && i < run.moves.size() ? "} C_DIS" : "}"));
+        set_speed(move.speed, stated.speed, text);
+        const bool is_rounded = i < run.moves.size() && set_rounding(rounding, stated.rounding, text);
+        text.line("LIN {" + own + (is_rounded ? "} C_DIS" : "}"));
         here = own;
     }
     return text;
@@ -179,23 +186,23 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
     add_settings(operation, text);
     start_extraction(machine_, text);
     start_spindle(machine_, operation.rpm, text);
-    double speed = 0;
+    Stated stated;
     const ProgramRun& first = operation.runs[range.first];
     if (range.first > 0) add_joint_move(first.start_joints, operation.table_angle, text);
     for (const Joints& target : operation.entry.targets) {
         if (range.first == 0) add_joint_move(target, operation.table_angle, text);
     }
     for (std::size_t r = range.first; r < range.first + range.count; ++r) {
-        text.append(run(operation, operation.runs[r], r == range.first, speed));
+        text.append(run(operation, operation.runs[r], r == range.first, stated));
     }
     const std::size_t end = range.first + range.count;
     if (end < operation.runs.size()) {
-        set_speed(operation.runs[end].link_speed, speed, text);
+        set_speed(operation.runs[end].link_speed, stated.speed, text);
         text.line("LIN {" + krl::position(operation.runs[end].start, point_decimals) + "}");
     } else {
         const Vec3 last = operation.runs.back().moves.back().tip;
         if (operation.exit.retract > 0) {
-            set_speed(operation.exit.retract_speed, speed, text);
+            set_speed(operation.exit.retract_speed, stated.speed, text);
             text.line("LIN {" + krl::position(last + operation.exit.retract * operation.tool_axis, point_decimals) +
                       "}");
         }

@@ -25,8 +25,13 @@ class KrlChunks {
     // The whole text of a chunk. `order` counts from 0 over all parts; `total` is their number.
     KrlText chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const;
 
-    // The moves of one run, from its start. `speed` is that which is set before, and after it.
-    KrlText run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, double& speed) const;
+    // What is stated until another line changes it: mm/s and mm; 0: not stated.
+    struct Stated {
+        double speed = 0;
+        double rounding = 0;
+    };
+    // The moves of one run, from its start. `stated` is what holds before it, and then after it.
+    KrlText run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, Stated& stated) const;
 
     // Load and tool of an operation.
     void add_tool(std::size_t tool, KrlText& text) const;

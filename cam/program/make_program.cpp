@@ -78,17 +78,33 @@ std::size_t max_lines(const Cell& cell) {
 // Where lowered speeds change so often that the lines to state them exceed what a chunk holds: the lowest of each kind
 // for all moves of the run.
 void limit_speed_changes(ProgramRun& run, std::size_t lines) {
-    std::size_t needed = run.moves.size() + 1;
-    std::array<double, 4> lowest;  // by MoveKind
-    lowest.fill(std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < run.moves.size(); ++i) {
-        const ProgramMove& move = run.moves[i];
-        double& own = lowest[static_cast<std::size_t>(move.kind)];
-        own = std::min(own, move.speed);
-        if (i > 0 && move.speed != run.moves[i - 1].speed) ++needed;
+    const auto needed = [&run] {
+        std::size_t count = 1;
+        double rounding = 0;
+        for (std::size_t i = 0; i < run.moves.size(); ++i) {
+            const ProgramMove& move = run.moves[i];
+            count += 1 + (i > 0 && move.speed != run.moves[i - 1].speed ? 1 : 0);
+            if (move.rounding == 0 || move.rounding == rounding) continue;
+            rounding = move.rounding;
+            ++count;
+        }
+        return count;
+    };
+    // Twice as many neighbours at a time get the lowest speed among those of their kind.
+    for (std::size_t at_once = 2; needed() > lines && at_once < 2 * run.moves.size(); at_once *= 2) {
+        for (std::size_t first = 0; first < run.moves.size(); first += at_once) {
+            const std::size_t end = std::min(run.moves.size(), first + at_once);
+            std::array<double, 4> lowest;  // by MoveKind
+            lowest.fill(std::numeric_limits<double>::infinity());
+            for (std::size_t i = first; i < end; ++i) {
+                double& own = lowest[static_cast<std::size_t>(run.moves[i].kind)];
+                own = std::min(own, run.moves[i].speed);
+            }
+            for (std::size_t i = first; i < end; ++i) {
+                run.moves[i].speed = lowest[static_cast<std::size_t>(run.moves[i].kind)];
+            }
+        }
     }
-    if (needed <= lines) return;
-    for (ProgramMove& move : run.moves) move.speed = lowest[static_cast<std::size_t>(move.kind)];
 }
 
 // One operation.

@@ -242,11 +242,11 @@ ProgramRun PostureSearch::run_of(const PathRun& run, const SampledPath& path, co
     made.moves.reserve(run.moves.size());
     for (const PathMove& move : run.moves) {
         const std::size_t end = at + sample_steps(tip, move.tip);
-        const double wanted = speed_of(move.kind);
+        const double wanted = move.feed > 0 ? move.feed : speed_of(move.kind);
         const double slowest = move.kind == MoveKind::cut ? least : 0.5 * least;
         const double speed = speed_between(path, reachable, at, end, wanted, slowest);
         if (speed < wanted) ++lowered;
-        made.moves.push_back({move.tip, move.kind, move.is_rounded, speed});
+        made.moves.push_back({move.tip, move.kind, move.rounding, speed});
         tip = move.tip;
         at = end;
     }
@@ -262,7 +262,6 @@ ProgramOperation PostureSearch::operation(std::span<const PathRun> runs, const S
     operation.configuration = reachable.posture.configuration;
     operation.redundancy_angle = reachable.posture.redundancy_angle;
     operation.rpm = operation_.rpm;
-    operation.rounding = operation_.rounding;
     operation.link_feed = operation_.link_feed;
     operation.runs.reserve(reachable.runs);
     for (std::size_t r = 0; r < reachable.runs; ++r) {

@@ -43,8 +43,8 @@ struct ProgramTool {
 struct ProgramMove {
     Vec3 tip;  // where it ends
     MoveKind kind = MoveKind::cut;
-    bool is_rounded = false;  // as PathMove::is_rounded
-    double speed = 0;         // of the operation, or less where a joint would be too fast
+    double rounding = 0;  // as PathMove::rounding
+    double speed = 0;     // of the operation, or less where a joint would be too fast
     bool operator==(const ProgramMove&) const = default;
 };
 
@@ -82,7 +82,6 @@ struct ProgramOperation {
     Pose tool_in_setup;           // orientation of the program's tool frame; its shift is 0
     double table_angle = 0;       // -pi..pi, of a rotary table; held while the operation is milled
     double rpm = 0;
-    double rounding = 0;            // see PathMove::is_rounded
     double link_feed = 0;           // from run to run, and on retracts
     PtpPath entry;                  // from home; the last target is the retracted start
     PtpPath exit;                   // from the retracted end; the last target is home

@@ -11,10 +11,14 @@ namespace {
 constexpr double approach_height = 5;  // mm
 constexpr double near_the_end = 0.9;   // of the lines of a part
 
-// Whether two kinds of moves have the same speed.
-bool is_same_speed(MoveKind a, MoveKind b) {
+bool is_same_speed(const PathMove& a, const PathMove& b) {
     const auto is_link = [](MoveKind kind) { return kind == MoveKind::link || kind == MoveKind::retract; };
-    return a == b || (is_link(a) && is_link(b));
+    return (a.kind == b.kind && a.feed == b.feed) || (is_link(a.kind) && is_link(b.kind));
+}
+
+// Lines of a move but the first: speed and rounding are stated where they change.
+std::size_t lines_of(const PathMove& move, const PathMove& before, double rounding) {
+    return 1 + (is_same_speed(move, before) ? 0 : 1) + (move.rounding > 0 && move.rounding != rounding ? 1 : 0);
 }
 
 // How many moves go into the first part.
@@ -22,8 +26,10 @@ std::size_t first_part(const PathRun& run, std::size_t lines) {
     const std::size_t most = lines - 3;  // less the retract, and the speeds at both ends
     std::size_t used = 1;
     std::size_t at_link = 0;
+    double rounding = 0;
     for (std::size_t i = 0; i < run.moves.size(); ++i) {
-        used += i > 0 && !is_same_speed(run.moves[i].kind, run.moves[i - 1].kind) ? 2 : 1;
+        used += lines_of(run.moves[i], run.moves[i > 0 ? i - 1 : 0], rounding);
+        if (run.moves[i].rounding > 0) rounding = run.moves[i].rounding;
         if (used > most) return at_link > 0 ? at_link : i;
         const bool is_late = static_cast<double>(used) > near_the_end * static_cast<double>(most);
         if (is_late && i > 0 && run.moves[i].kind == MoveKind::link) at_link = i;
@@ -37,23 +43,25 @@ std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec
     assert(count > 0 && count < run.moves.size());
     const auto middle = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
     PathRun head{run.start, {run.moves.begin(), middle}};
-    head.moves.back().is_rounded = false;
+    head.moves.back().rounding = 0;
     const Vec3 tip = head.moves.back().tip;
     const Vec3 above = tip + (retract - dot(tool_axis, tip)) * tool_axis;
-    head.moves.push_back({above, MoveKind::retract, false});
+    head.moves.push_back({above, MoveKind::retract});
     PathRun tail{above, {}};
     if (retract - dot(tool_axis, tip) > approach_height) {
-        tail.moves.push_back({tip + approach_height * tool_axis, MoveKind::link, false});
+        tail.moves.push_back({tip + approach_height * tool_axis, MoveKind::link});
     }
-    tail.moves.push_back({tip, MoveKind::approach, false});
+    tail.moves.push_back({tip, MoveKind::approach});
     tail.moves.insert(tail.moves.end(), middle, run.moves.end());
     return {std::move(head), std::move(tail)};
 }
 
 std::size_t lines_of(const PathRun& run) {
-    std::size_t lines = run.moves.size() + 1;
-    for (std::size_t i = 1; i < run.moves.size(); ++i) {
-        if (!is_same_speed(run.moves[i].kind, run.moves[i - 1].kind)) ++lines;
+    std::size_t lines = 1;
+    double rounding = 0;
+    for (std::size_t i = 0; i < run.moves.size(); ++i) {
+        lines += lines_of(run.moves[i], run.moves[i > 0 ? i - 1 : 0], rounding);
+        if (run.moves[i].rounding > 0) rounding = run.moves[i].rounding;
     }
     return lines;
 }

@@ -19,7 +19,7 @@ namespace qchopper {
 // the run are in one of the two, in their order. Precondition: 0 < count < run.moves.size().
 std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec3 tool_axis, double retract);
 
-// Lines that a run needs at most: its moves, and one more where the speed changes.
+// Lines that a run needs at most: its moves, and one more where the speed changes and where the rounding does.
 std::size_t lines_of(const PathRun& run);
 
 // Runs that need more than `lines` divided, at links where there are some near the end of a part. Precondition: lines

@@ -238,25 +238,28 @@ ToolSweep::ToolSweep(const CuttingTool& tool, double cell, double slack, StockCe
     }
 }
 
-void ToolSweep::move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
+double ToolSweep::move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
     assert(map.cell == cell_ && other.height.size() == map.height.size());
-    if (!(outer_ > 0)) return;
+    if (!(outer_ > 0)) return 0;
     if (is_ball_ || from.z == to.z) return sweep(map, other, from, to);
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     const auto parts = static_cast<std::size_t>(std::ceil(length / cell_)) + 1;
+    double lowered = 0;
     for (std::size_t i = 0; i <= parts; ++i) {
         const Vec3 tip = from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from);
-        sweep(map, other, tip, tip);
+        lowered += sweep(map, other, tip, tip);
     }
+    return lowered;
 }
 
-void ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
+double ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const {
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     const bool is_point = !(length > min_way);
     if (is_point) from = to = {to.x, to.y, std::min(from.z, to.z)};
     const Vec3 along = is_point ? Vec3{1, 0, 0} : Vec3{(to.x - from.x) / length, (to.y - from.y) / length, 0};
     const double end = is_point ? 0 : length;
     const double slope = is_point ? 0 : (to.z - from.z) / length;
+    double lowered = 0;  // mm
     LowestPlaces places(along, end, slope, cell_, outer_);
     const auto base = static_cast<float>(from.z);
     const CellSpan rows =
@@ -282,11 +285,15 @@ void ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) 
                 const auto ring = static_cast<std::size_t>(places.ring[k]);
                 if (ring >= sweep_rings) continue;
                 const float height = base + places.rise[k] + above_[ring];
-                own[first + k] = std::min(own[first + k], height);
+                if (height < own[first + k]) {
+                    lowered += static_cast<double>(own[first + k] - height);
+                    own[first + k] = height;
+                }
                 others[first + k] = std::min(others[first + k], height);
             }
         }
     }
+    return lowered * cell_ * cell_;
 }
 
 InProcessStock::InProcessStock(const Setup& setup, StockCells kind) : setup_(&setup), kind_(kind) {}

@@ -28,13 +28,14 @@ class ToolSweep {
     // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
     ToolSweep(const CuttingTool& tool, double cell, double slack = 0, StockCells kind = StockCells::whole);
 
-    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(cells passed), but for
-    // tools other than balls on a slope O(length / cell * (radius / cell)^2).
-    void move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
+    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. By how much it lowers the
+    // first one, in mm3. O(cells passed), but for tools other than balls on a slope
+    // O(length / cell * (radius / cell)^2).
+    double move(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
 
  private:
     // Precondition: the tool is a ball or the line is level.
-    void sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
+    double sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to) const;
 
     double cell_;
     double outer_;  // farthest centre of a cell that is under the tool

@@ -181,19 +181,23 @@ std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightFiel
 std::vector<Pass> clear_of_sawn_faces(const std::vector<Pass>& passes, const HeightField& map, const CuttingTool& tool,
                                       const Setup& setup) {
     if (setup.flush_caps.empty()) return passes;
-    const Box block = setup.block_box();
-    const FlushFaces flush = setup.flush_faces();
-    const double radius = 0.5 * tool.diameter;
-    return divided(passes, sawn_step,
-                   [&](Vec3 p) {
-                       const Vec3 c = field_to_setup(setup, map, p + Vec3{0, 0, radius});
-                       const std::array<double, block_faces> inside = inside_faces(block, c);
-                       for (std::size_t f = 0; f < block_faces; ++f) {
-                           if (flush[f] && -inside[f] > radius - inside_sawn_face) return false;
-                       }
-                       return true;
-                   })
-        .free;
+    const BesideSawnFaces is_beside(setup, map, 0.5 * tool.diameter);
+    return divided(passes, sawn_step, [&](Vec3 p) { return !is_beside(p); }).free;
+}
+
+BesideSawnFaces::BesideSawnFaces(const Setup& setup, const HeightField& map, double radius)
+    : block_(setup.block_box()),
+      flush_(setup.flush_faces()),
+      map_in_setup_(setup.piece_in_setup * inverse(map.piece_in_field)),
+      radius_(radius) {}
+
+bool BesideSawnFaces::operator()(Vec3 tip) const {
+    const std::array<double, block_faces> inside =
+        inside_faces(block_, apply(map_in_setup_, tip + Vec3{0, 0, radius_}));
+    for (std::size_t f = 0; f < block_faces; ++f) {
+        if (flush_[f] && -inside[f] > radius_ - inside_sawn_face) return true;
+    }
+    return false;
 }
 
 }  // namespace qchopper

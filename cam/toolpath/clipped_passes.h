@@ -7,10 +7,14 @@
 
 #include <vector>
 
+#include "base/box.h"
+#include "base/pose.h"
 #include "cam/cell/cutting_tool.h"
+#include "cam/setup/block_face.h"
 #include "cam/setup/setup.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/toolpath_linker.h"
+#include "segment/raster/height_field.h"
 
 namespace qchopper {
 
@@ -30,6 +34,21 @@ double length_of(const std::vector<Pass>& passes);
 // The parts of passes along which a tool is about 1.5 mm at most from touching, where `cl` is the CL surface of the
 // tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
 std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl);
+
+// Whether a ball with its tip at a point of a map touches a sawn face of the block, or would if that stood out a
+// little: its middle is beyond the plane of the face by nearly its radius or more. The points where it does not are
+// convex.
+class BesideSawnFaces {
+ public:
+    BesideSawnFaces(const Setup& setup, const HeightField& map, double radius);
+    bool operator()(Vec3 tip) const;
+
+ private:
+    Box block_;
+    FlushFaces flush_;
+    Pose map_in_setup_;
+    double radius_;
+};
 
 // The parts of passes of a ball-ended tool, in the frame of a map, along which it comes nearer to the piece than a sawn
 // face of the block: where its centre is about a radius beyond the face it touches nothing else, and would mill the

@@ -142,15 +142,15 @@ class HolePlanner {
         PathRun run;
         run.hole = hole.number;
         run.start = at_height(hole, height_of_retract(hole));
-        run.moves.push_back({at_height(hole, begin), MoveKind::link, false});
+        run.moves.push_back({at_height(hole, begin), MoveKind::link});
         const auto pecks =
             std::max(1, static_cast<int>(std::ceil((top - deepest) / (peck_diameters * hole.diameter) - 1e-9)));
         for (int peck = 1; peck <= pecks; ++peck) {
             const double to = top + (deepest - top) * peck / pecks;
-            run.moves.push_back({at_height(hole, to), MoveKind::cut, false});
-            run.moves.push_back({at_height(hole, begin), MoveKind::cut, false});
+            run.moves.push_back({at_height(hole, to), MoveKind::cut});
+            run.moves.push_back({at_height(hole, begin), MoveKind::cut});
         }
-        run.moves.push_back({run.start, MoveKind::retract, false});
+        run.moves.push_back({run.start, MoveKind::retract});
         return run;
     }
 

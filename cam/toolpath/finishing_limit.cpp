@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -16,13 +17,23 @@
 namespace qchopper {
 namespace {
 
-constexpr double min_clearance = 0.15;  // of holder and spindle
+constexpr double clear_of_table = 2;        // mm, of all points of a tool
+constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
+constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
+constexpr double min_clearance = 0.15;      // of holder and spindle
 // With several directions more of it, because foam stands up to 0.71 cells beside where another direction says so
 // (holder_clearance_over allows for the cell of this one).
 constexpr double clearance_cells = 0.72;
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 
 }  // namespace
+
+double finishing_floor(const Setup& setup, Vec3 tool_axis, double radius) {
+    const double lowest = clear_of_table - setup.spoil;
+    if (tool_axis.z > upright) return std::max(-radius, lowest);
+    const double rim = radius * (std::sqrt(std::max(0.0, 1 - tool_axis.z * tool_axis.z)) + tool_axis.z - 1);
+    return std::max(lowest, rim_clear_of_table - setup.spoil + rim);
+}
 
 HolderGap finishing_gap(const Setup& setup, double stock_cell) {
     const bool is_alone = setup.access.orientations.size() == 1;

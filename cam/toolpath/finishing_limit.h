@@ -13,6 +13,11 @@
 
 namespace qchopper {
 
+// The height, in setup coordinates, below which no point of a finishing ball comes. It goes below the base, so that it
+// mills the sides down to it, but not into the table: from above by its radius, and tilted, where it comes under what
+// leans over, as far as its rim, were it a cylinder, stays clear of the table, because poses are judged with that.
+double finishing_floor(const Setup& setup, Vec3 tool_axis, double radius);
+
 // From foam at the centres of cells of a size.
 HolderGap finishing_gap(const Setup& setup, double stock_cell);
 

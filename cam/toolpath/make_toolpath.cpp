@@ -37,12 +37,14 @@
 #include "cam/stock/in_process_stock.h"
 #include "cam/stock/roughing_limit.h"
 #include "cam/toolpath/clipped_passes.h"
-#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing/finishing.h"
+#include "cam/toolpath/finishing/finishing_region.h"
 #include "cam/toolpath/finishing_limit.h"
-#include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/roughing.h"
+#include "cam/toolpath/run_motion.h"
 #include "cam/toolpath/toolpath_linker.h"
 #include "cam/toolpath/unused_tools.h"
+#include "cam/toolpath/worthwhile_tools.h"
 
 namespace qchopper {
 namespace {
@@ -54,11 +56,10 @@ constexpr int max_given_back = 2;      // times, of each kind of finishing
 constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
 constexpr double worth_another = 200;  // mm of such passes that are worth another direction
 constexpr double border_cells = 6;
-constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
-constexpr double clear_of_table = 2;        // mm, of all points of a tool
-constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
-constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
-constexpr double skin_beyond = 4.2;         // mm beyond the allowance: a narrower rim of foam is left to finishing
+constexpr double surface_spacing = 1;     // mm, between points that are asked what is left over them
+constexpr double thinner = 0.75;          // of the diameter of the tool before: it roughs where that did not come
+constexpr double depth_per_diameter = 3;  // of a cut at most
+constexpr double skin_beyond = 4.2;       // mm beyond the allowance: a narrower rim of foam is left to finishing
 
 // Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
 constexpr DilationOptions finishing_dilation_options{0, 0.075};
@@ -79,7 +80,10 @@ class ToolpathMaker {
           left_(mesh, setup, surface_spacing),
           coarse_pieces_(setup.access.orientations.size()) {
         check_settings(settings, machine_, tools_);
-        const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
+        if (settings.finishing_tools.empty()) {
+            tools_.finishing = worthwhile_tools(setup, mesh, cell, tools_.finishing, settings, context);
+        }
+        const double finest = 0.5 * machine_.tools[tools_.finishing.back()].diameter;
         stock_cell_ = std::max(min_stock_cell, finest / cells_per_radius);
         double widest = 0;
         for (const CuttingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
@@ -88,15 +92,18 @@ class ToolpathMaker {
 
     Toolpath make() {
         const std::size_t directions = setup_.access.orientations.size();
-        total_ = (tools_.fine ? 5 : 3) * directions;
+        total_ = (1 + 2 * tools_.finishing.size()) * directions;
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
-        for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
-        finish(tools_.finishing, OperationKind::finishing);
-        if (tools_.fine) {
-            for (std::size_t d = 0; d < directions; ++d) rough_along(d, *tools_.fine);
-            finish(*tools_.fine, OperationKind::fine_finishing);
-            while (retry(tools_.finishing) && retry(*tools_.fine)) {
-            }
+        std::size_t before = tools_.roughing;
+        for (const std::size_t tool : tools_.finishing) {
+            // What a tool of nearly the same width could not rough is as deep as finishing cuts.
+            const bool is_thinner = machine_.tools[tool].diameter < thinner * machine_.tools[before].diameter;
+            for (std::size_t d = 0; d < directions && is_thinner; ++d) rough_along(d, tool);
+            finish(tool);
+            before = tool;
+        }
+        for (bool goes_on = tools_.finishing.size() > 1; goes_on;) {
+            goes_on = std::ranges::all_of(tools_.finishing, [&](std::size_t tool) { return retry(tool); });
         }
         report();
         if (toolpath_.operations.empty()) {
@@ -113,17 +120,8 @@ class ToolpathMaker {
  private:
     void report() {
         context_.check_cancelled();
+        total_ = std::max(total_, done_);
         context_.progress("operations of the toolpath", done_++, total_);
-    }
-
-    // The height below which no point of a ball comes. It goes below the base, so that it mills the sides down to it,
-    // but not into the table: from above by its radius, and tilted, where it comes under what leans over, as far as its
-    // rim, were it a cylinder, stays clear of the table, because poses are judged with that.
-    double finishing_floor(Vec3 tool_axis, double radius) const {
-        const double lowest = clear_of_table - setup_.spoil;
-        if (tool_axis.z > upright) return std::max(-radius, lowest);
-        const double rim = radius * (std::sqrt(std::max(0.0, 1 - tool_axis.z * tool_axis.z)) + tool_axis.z - 1);
-        return std::max(lowest, rim_clear_of_table - setup_.spoil + rim);
     }
 
     HeightField target(std::size_t orientation, double cell, double floor_z) const {
@@ -151,16 +149,18 @@ class ToolpathMaker {
         return space;
     }
 
-    void rough_along(std::size_t orientation, std::size_t tool_index) {
+    // Foam that finishing cuts, up to its deepest cut, stays; with `is_whole` all that is higher than a level goes.
+    void rough_along(std::size_t orientation, std::size_t tool_index, bool is_whole = false) {
         report();
         const CuttingTool& tool = machine_.tools[tool_index];
         const bool is_first = orientation == 0 && tool_index == tools_.roughing;
         const bool is_large = tool_index == tools_.roughing;
+        const CuttingTool& finishing = is_large ? machine_.tools[tools_.finishing.front()] : tool;
         Operation operation = new_operation(orientation, tool_index, OperationKind::roughing);
         operation.stepover = settings_.stepover_share * tool.diameter;
         operation.stepdown = stepdown_of(tool, settings_);
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
-        operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
+        operation.rounding = settings_.rounding;
         const HeightField& piece = coarse_piece(orientation);
         HeightField cl = cl_surface(piece, tool, {operation.allowance});
         raise_to_holder(cl, piece, body_of(tool_index), setup_.piece_in_setup);
@@ -173,21 +173,29 @@ class ToolpathMaker {
         space.cl_limit = &cl;
         space.is_limit_between = false;
         RoughingOptions options;
-        if (!is_first) {
-            options = {operation.stepdown, settings_.allowance + skin_beyond};
+        if (is_first) {
+            options.deepest = deepest_cut(tool);
+        } else {
+            // A level cuts what stands above it by the skin too.
+            const double left = std::min(deepest_cut(tool), deepest_cut(finishing)) - operation.stepdown;
+            options.skin_height = std::max(operation.stepdown, is_whole ? 0 : left);
+            options.skin_width = settings_.allowance + skin_beyond;
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
     }
 
     // From all directions; then surface that stays blocked for one is left to the others.
-    void finish(std::size_t tool, OperationKind kind) {
+    void finish(std::size_t tool) {
+        const OperationKind kind =
+            tool == tools_.finishing.front() ? OperationKind::finishing : OperationKind::fine_finishing;
         const std::size_t directions = setup_.access.orientations.size();
         for (std::size_t d = 0; d < directions; ++d) {
             report();
             finish_along(d, tool, kind, false);
         }
         retry(tool);
+        if (blocked_length(tool) >= worth_another) clear_for(tool);
         for (int k = 0; k < max_given_back && directions > 1 && give_back(tool); ++k) {
             for (std::size_t d = 0; d < directions; ++d) finish_along(d, tool, kind, true);
             retry(tool);
@@ -198,14 +206,14 @@ class ToolpathMaker {
     void finish_along(std::size_t orientation, std::size_t tool_index, OperationKind kind, bool over_stock) {
         const CuttingTool& tool = machine_.tools[tool_index];
         FinishingOptions options;
-        options.scallop = kind == OperationKind::finishing ? settings_.scallop : settings_.fine_scallop;
+        options.scallop = settings_.scallop;
         options.path_tolerance = settings_.path_tolerance;
         options.rounding = settings_.rounding;
         Operation operation = new_operation(orientation, tool_index, kind);
         operation.stepover = finishing_stepover(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        const double floor_z = finishing_floor(setup_.tool_axis(orientation), 0.5 * tool.diameter);
+        const double floor_z = finishing_floor(setup_, setup_.tool_axis(orientation), 0.5 * tool.diameter);
         auto over_piece = std::make_unique<ToolOverPiece>(target(orientation, settings_.cell, floor_z), tool);
         HeightField own_cl =
             cl_surface(over_piece->piece, tool, finishing_dilation_options);  // without holder and spindle
@@ -260,8 +268,11 @@ class ToolpathMaker {
         MillingSpace space = space_of(coarse_piece(left.operation.orientation), left.operation);
         space.cl_limit = &left.cl;
         space.tool = &left.over_piece->tool;
+        if (!setup_.flush_caps.empty()) {
+            space.is_beside_sawn_face = BesideSawnFaces(setup_, left.cl, 0.5 * tool.diameter);
+        }
         LinkOptions links;
-        links.slack = settings_.path_tolerance;
+        links.within = settings_.path_tolerance;
         ToolpathLinker runs(space, tool, left.operation, links);
         double milled = 0;
         while (!left.passes.empty()) {
@@ -292,6 +303,24 @@ class ToolpathMaker {
             has_milled = has_milled || goes_on;
         }
         return has_milled;
+    }
+
+    // mm of passes of a tool that foam blocks.
+    double blocked_length(std::size_t tool) const {
+        double length = 0;
+        for (const PassesLeft& left : blocked_) {
+            if (left.operation.tool == tool) length += length_of(left.passes);
+        }
+        return length;
+    }
+
+    // Foam that was left to finishing keeps holders and flutes from its own passes: it is roughed after all.
+    void clear_for(std::size_t tool) {
+        for (std::size_t d = 0; d < setup_.access.orientations.size(); ++d) {
+            rough_along(d, tools_.roughing, true);
+            if (tool != tools_.roughing) rough_along(d, tool, true);
+        }
+        retry(tool);
     }
 
     // Marks surface under passes that stay blocked as left again. Whether there is any.
@@ -336,7 +365,7 @@ class ToolpathMaker {
         const CuttingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
         return left_.take(remaining_surface(cl, tool), near(operation), operation.stepover,
-                          is_fine ? near(operation) : 0);
+                          is_fine ? near(operation) : 0, is_followed_twice(operation.tool));
     }
 
     // The floor within a tool's width of the piece.
@@ -344,6 +373,17 @@ class ToolpathMaker {
         FinishingRegion floor(piece.height.size(), not_finished);
         add_floor_band(floor, piece, width, setup_);
         return floor;
+    }
+
+    // Whether two more tools finish after it. The last but one clears for the last what neither of them finishes.
+    bool is_followed_twice(std::size_t tool) const {
+        return std::ranges::find(tools_.finishing, tool) + 2 < tools_.finishing.end();
+    }
+
+    // The most foam that the tool cuts at once in its whole width at its least feed, at most twice its diameter.
+    double deepest_cut(const CuttingTool& tool) const {
+        const double by_rate = used_rate * tool.removal_mm3_per_s / (tool.diameter * tool.feed_min_mm_per_s);
+        return std::min({by_rate, depth_per_diameter * tool.diameter, tool.flute_length});
     }
 
     Operation new_operation(std::size_t orientation, std::size_t tool, OperationKind kind) const {

@@ -12,7 +12,7 @@ namespace qchopper {
 
 struct PassPoint {
     Vec3 tip;
-    bool is_rounded = false;  // as PathMove::is_rounded
+    bool is_rounded = false;  // whether the corner may be rounded as far as the operation says
 };
 
 struct Pass {

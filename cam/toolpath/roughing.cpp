@@ -15,8 +15,9 @@
 namespace qchopper {
 namespace {
 
-constexpr double min_foam = 0.2;      // mm above a level that is worth a cut
-constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam, so that it begins beside it
+constexpr double min_foam = 0.2;          // mm above a level that is worth a cut
+constexpr double allowance_share = 0.24;  // by which corners may be passed beside
+constexpr double cells_beside = 2.5;      // by which a pass goes on beyond the foam, so that it begins beside it
 
 constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
 
@@ -69,7 +70,14 @@ class RoughingLevels {
             if (cells > 0)
                 heights.push_back(static_cast<double>(k) == count ? bottom : top - static_cast<double>(k) * down);
         }
-        return heights;
+        const auto at_once = static_cast<std::size_t>(std::max(1.0, std::floor(options_.deepest / down + 1e-6)));
+        std::vector<double> ordered;
+        for (std::size_t first = 0; first < heights.size(); first += at_once) {
+            const std::size_t end = std::min(heights.size(), first + at_once);
+            ordered.push_back(heights[end - 1]);
+            for (std::size_t k = first; k + 1 < end; ++k) ordered.push_back(heights[k]);
+        }
+        return ordered;
     }
 
     LevelRegion region(double level) const {
@@ -124,7 +132,7 @@ std::vector<PathRun> rough(MillingSpace& space, const CuttingTool& tool, const T
     space.holder_clearance_height = {};
     LinkOptions links;
     links.has_ramps = true;
-    links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
+    links.slack = std::min(links.slack, allowance_share * operation.allowance);
     ToolpathLinker runs(space, tool, operation, links);
     for (const double level : heights) {
         context.check_cancelled();

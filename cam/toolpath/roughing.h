@@ -21,6 +21,9 @@ struct RoughingOptions {
     // less two levels. Both 0 in the first direction.
     double skin_height = 0;
     double skin_width = 0;
+    // Foam that may be cut at once: of so many levels the lowest is milled first, and what it leaves over the piece at
+    // the others afterwards. 0: level by level.
+    double deepest = 0;
 };
 
 // Runs in map coordinates that leave no foam higher than a level's height above the tip limit where the tool comes to

@@ -34,9 +34,11 @@ enum class MoveKind : std::uint8_t { approach, cut, link, retract };
 struct PathMove {
     Vec3 tip;  // where it ends
     MoveKind kind = MoveKind::cut;
-    // Whether the controller may round the corner at its end, beginning at most Operation::rounding before and ending
-    // at most as far behind it, and at most in the middle of the shorter move.
-    bool is_rounded = false;
+    // How far before its end the controller may begin to round the corner there, and as far behind it end; at most in
+    // the middle of the shorter move. 0: the corner is exact.
+    double rounding = 0;
+    // Of a cut or an approach that would remove foam faster than the tool may; 0: that of its kind in the operation.
+    double feed = 0;
     bool operator==(const PathMove&) const = default;
 };
 
@@ -58,7 +60,7 @@ struct Operation {
     double approach_feed = 0;
     double link_feed = 0;  // of links and retracts
     double rpm = 0;
-    double rounding = 0;        // see PathMove::is_rounded
+    double rounding = 0;        // the largest of its moves
     double stepover = 0;        // largest distance between neighbouring passes
     double stepdown = 0;        // of roughing: height of a level; else 0
     double allowance = 0;       // of foam that is left on the piece

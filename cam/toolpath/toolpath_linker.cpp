@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cam/toolpath/pass_order.h"
+#include "cam/toolpath/run_motion.h"
 #include "segment/raster/bilinear_cell.h"
 #include "segment/raster/disc_dilation.h"
 
@@ -23,6 +24,8 @@ constexpr std::size_t max_moves = 900;                       // a run ends in th
 constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
 constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr double least_rounding = 0.05;                      // mm before a corner that are worth a line
+constexpr double cut_into = 0.02;                            // mm below the limit that a rounded corner may be
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
 
 Vec3 raised(Vec3 point, double z) {
@@ -145,17 +148,56 @@ ToolpathLinker::Way ToolpathLinker::way_to(Vec3 to) const {
     return way;
 }
 
-void ToolpathLinker::move(Vec3 tip, MoveKind kind, bool is_rounded) {
+void ToolpathLinker::move(Vec3 tip, MoveKind kind, Corner corner) {
+    const bool is_move = norm(tip - at_) > 1e-6;
+    // Before the move removes foam that the rounded corner would meet.
+    if (is_move && !run_.moves.empty()) run_.moves.back().rounding = rounding_before(tip, kind);
+    double removed = 0;
     if (kind == MoveKind::cut || kind == MoveKind::approach) {
         sweep_.move(space_->stock, space_->removed, at_, tip);
-        centre_sweep_.move(space_->centre_stock, space_->centre_removed, at_, tip);
+        removed = centre_sweep_.move(space_->centre_stock, space_->centre_removed, at_, tip);
     }
-    if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
+    if (is_move) {
+        run_.moves.push_back({tip, kind});
+        removed_mm3_.push_back(removed);
+        before_ = at_;
+    }
+    corner_ = corner;
     at_ = tip;
+}
+
+// Of the corner at the end of the last move, if the tool goes on like that.
+double ToolpathLinker::rounding_before(Vec3 to, MoveKind kind) const {
+    const double largest = operation_->rounding;
+    if (corner_ == Corner::rounded && !options_.has_ramps) return largest;
+    if (corner_ == Corner::clear) return std::min(largest, options_.clearance);
+    const bool is_within = corner_ == Corner::inner && !options_.has_ramps;
+    const double deviation = is_within ? options_.within : options_.slack;
+    double rounding = corner_rounding(before_, at_, to, deviation, largest);
+    for (; rounding >= least_rounding; rounding *= 0.5) {
+        if (is_round_way_clear(to, kind, rounding)) return rounding;
+        rounding = std::min(rounding, 0.5 * std::min(norm(at_ - before_), norm(to - at_)));
+    }
+    return 0;
+}
+
+// A link may touch no foam; roughing stays beyond its allowance by more than it passes beside a corner.
+bool ToolpathLinker::is_round_way_clear(Vec3 to, MoveKind kind, double rounding) const {
+    const auto is_link = [](MoveKind of) { return of == MoveKind::link || of == MoveKind::retract; };
+    for (const double t : {0.125, 0.25, 0.5, 0.75, 0.875}) {
+        const Vec3 p = on_parabola(before_, at_, to, rounding, t);
+        if (space_->is_limit_between && limit_at(p) > p.z + cut_into) return false;
+        if (space_->is_limit_between && holder_at(p.x, p.y) > p.z) return false;
+        const bool is_before = t <= 0.5 && is_link(run_.moves.back().kind);
+        const bool is_behind = t >= 0.5 && is_link(kind);
+        if ((is_before || is_behind) && stock_near(p, outer_) > p.z) return false;
+    }
+    return true;
 }
 
 void ToolpathLinker::begin_run(Vec3 at) {
     run_ = {};
+    removed_mm3_.clear();
     at_ = raised(at, space_->retract);
     run_.start = at_;
 }
@@ -163,15 +205,15 @@ void ToolpathLinker::begin_run(Vec3 at) {
 void ToolpathLinker::end_run() {
     if (run_.moves.empty()) return;
     move(raised(at_, space_->retract), MoveKind::retract);
+    limit_feeds(run_, removed_mm3_, space_->stock.cell, *tool_, *operation_);
+    settle_rounding(run_, operation_->rounding);
     runs_.push_back(std::move(run_));
     run_ = {};
 }
 
 void ToolpathLinker::hop_to(Vec3 to, double height) {
-    // Rounding begins no deeper than the clearance.
-    const bool is_rounded = operation_->rounding <= options_.clearance;
-    move(raised(at_, height), MoveKind::retract, is_rounded);
-    move(raised(to, height), MoveKind::link, is_rounded);
+    move(raised(at_, height), MoveKind::retract, Corner::clear);
+    move(raised(to, height), MoveKind::link, Corner::clear);
 }
 
 void ToolpathLinker::ramp(const Pass& pass, double top) {
@@ -186,7 +228,7 @@ void ToolpathLinker::ramp(const Pass& pass, double top) {
     for (std::size_t traverse = 0; traverse < 2 * pairs; ++traverse) {
         for (std::size_t i = 1; i < part.size(); ++i) {
             z -= slope * norm(part[i] - part[i - 1]);
-            move(raised(part[i], std::max(z, part[i].z)), MoveKind::cut, i + 1 < part.size());
+            move(raised(part[i], std::max(z, part[i].z)), MoveKind::cut, Corner::inner);
         }
         std::reverse(part.begin(), part.end());
     }
@@ -230,12 +272,15 @@ void ToolpathLinker::go_to(const Pass& pass) {
     const bool is_cut_shorter = way.length / operation_->feed <= hop_s;
     if (is_cut_shorter && way.over_flute <= 0 && way.over_holder <= 0) {
         if (is_free) return move(to, MoveKind::cut);
-        if (space_->is_limit_between && way.over_limit < highest_lift) {
-            const double lift = way.over_limit + 0.01;
-            const Vec3 end = to;
-            move(raised(at_, at_.z + lift), MoveKind::cut);
-            move(raised(end, end.z + lift), MoveKind::cut);
-            return move(end, MoveKind::cut);
+        const double lift = way.over_limit + 0.01;
+        const Vec3 above = raised(at_, at_.z + lift);
+        const Vec3 end = raised(to, to.z + lift);
+        const auto& is_beside = space_->is_beside_sawn_face;
+        const bool is_clear = !is_beside || (!is_beside(above) && !is_beside(end));
+        if (space_->is_limit_between && way.over_limit < highest_lift && is_clear) {
+            move(above, MoveKind::cut);
+            move(end, MoveKind::cut);
+            return move(to, MoveKind::cut);
         }
     }
     if (height >= space_->retract - options_.clearance || run_.moves.size() >= many_moves) {
@@ -259,7 +304,8 @@ void ToolpathLinker::add_pass(const Pass& pass) {
             begin_run(rest.points[0].tip);
             enter(rest);
         }
-        move(pass.points[i].tip, MoveKind::cut, pass.points[i].is_rounded && !is_last);
+        const Corner corner = is_last ? Corner::joint : pass.points[i].is_rounded ? Corner::rounded : Corner::inner;
+        move(pass.points[i].tip, MoveKind::cut, corner);
     }
 }
 

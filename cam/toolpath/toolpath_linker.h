@@ -12,6 +12,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
@@ -37,6 +39,8 @@ struct MillingSpace {
     HeightField centre_removed;             // likewise
     HeightField holder_clearance_height;    // least height of the tip over what the foam is, or was
     double retract = 0;                     // height of the retract plane
+    // Whether the tool touches a sawn face there (BesideSawnFaces); nothing: there is none.
+    std::function<bool(Vec3)> is_beside_sawn_face = {};
 };
 
 double length_of(const Pass& pass);
@@ -50,6 +54,7 @@ struct LinkOptions {
     double gap = 2;          // above foam, where an approach begins
     double clearance = 3;    // above what a link goes over
     double slack = 0.36;     // how far a controller that rounds corners may pass beside the way
+    double within = 0.1;     // the same within a pass of finishing that does not say itself what may be rounded
 };
 
 class ToolpathLinker {
@@ -65,6 +70,9 @@ class ToolpathLinker {
 
  private:
     struct Way;
+    // What is known of the corner at the end of a move: nothing; it lies within a pass; the pass has it rounded; all
+    // around is clear as far as LinkOptions::clearance.
+    enum class Corner : std::uint8_t { joint, inner, rounded, clear };
     void add_pass(const Pass& pass);
     void begin_run(Vec3 at);
     void end_run();
@@ -72,7 +80,9 @@ class ToolpathLinker {
     void hop_to(Vec3 to, double height);
     void enter(const Pass& pass);
     void ramp(const Pass& pass, double top);
-    void move(Vec3 tip, MoveKind kind, bool is_rounded = false);
+    void move(Vec3 tip, MoveKind kind, Corner corner = Corner::joint);
+    double rounding_before(Vec3 to, MoveKind kind) const;
+    bool is_round_way_clear(Vec3 to, MoveKind kind, double rounding) const;
     Way way_to(Vec3 to) const;
 
     double stock_near(Vec3 at, double radius) const;
@@ -91,7 +101,10 @@ class ToolpathLinker {
     double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
     double inner_ = 0;  // radius within which all of a cell lies under the tool
     Vec3 at_;
+    Vec3 before_;                    // where the last move of the run begins
+    Corner corner_ = Corner::joint;  // at its end
     PathRun run_;
+    std::vector<double> removed_mm3_;  // by each of its moves
     std::vector<PathRun> runs_;
 };
 

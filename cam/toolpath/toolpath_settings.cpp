@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "cam/cell/job_tools.h"
 
 namespace qchopper {
@@ -47,13 +48,20 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
     ToolChoice choice;
     choice.roughing =
         settings.roughing_tool ? given(machine, *settings.roughing_tool, "roughing_tool", false) : roughing_tool(tools);
-    choice.finishing = settings.finishing_tool ? given(machine, *settings.finishing_tool, "finishing_tool", true)
-                                               : finishing_tool(tools, tools[choice.roughing].diameter);
-    if (!settings.has_fine_finishing) return choice;
-    choice.fine = settings.fine_tool ? given(machine, *settings.fine_tool, "fine_tool", true)
-                                     : fine_tool(tools, tools[choice.finishing].diameter);
-    if (choice.fine && tools[*choice.fine].diameter >= tools[choice.finishing].diameter) {
-        refuse("fine_tool is not smaller than the tool of the finishing");
+    for (const std::size_t tool : settings.finishing_tools) {
+        choice.finishing.push_back(given(machine, tool, "finishing_tools", true));
+    }
+    const auto is_smaller = [&](std::size_t a, std::size_t b) { return tools[a].diameter < tools[b].diameter; };
+    if (std::adjacent_find(choice.finishing.begin(), choice.finishing.end(), is_smaller) != choice.finishing.end()) {
+        refuse("finishing_tools: one is larger than the one before it");
+    }
+    if (!choice.finishing.empty()) return choice;
+    const double main = tools[finishing_tool(tools, tools[choice.roughing].diameter)].diameter;
+    const double least = std::max(settings.finest_tool, settings.fine == FineTools::none ? main : 0);
+    choice.finishing = finishing_tools(tools, least, std::max(main, tools[choice.roughing].diameter));
+    if (choice.finishing.empty()) {
+        refuse("finest_tool: no ball-ended tool of the cell has a diameter of " + significant(least, 3) +
+               " mm or more");
     }
     return choice;
 }
@@ -63,27 +71,26 @@ double stepdown_of(const CuttingTool& tool, const ToolpathSettings& settings) {
 }
 
 void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools) {
-    const std::vector<std::pair<const char*, double>> positive{
-        {"scallop", settings.scallop},    {"fine_scallop", settings.fine_scallop},
-        {"cell", settings.cell},          {"path_tolerance", settings.path_tolerance},
-        {"step_down", settings.stepdown}, {"step_share", settings.stepover_share}};
+    const std::vector<std::pair<const char*, double>> positive{{"scallop", settings.scallop},
+                                                               {"cell", settings.cell},
+                                                               {"path_tolerance", settings.path_tolerance},
+                                                               {"step_down", settings.stepdown},
+                                                               {"step_share", settings.stepover_share}};
     for (const auto& [name, value] : positive) {
         if (!(value > 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is not above zero");
     }
     const std::vector<std::pair<const char*, double>> not_negative{{"allowance", settings.allowance},
                                                                    {"fine_allowance", settings.fine_allowance},
                                                                    {"beside_block", settings.beside_block.value_or(0)},
-                                                                   {"rounding", settings.rounding},
-                                                                   {"roughing_rounding", settings.roughing_rounding}};
+                                                                   {"rounding", settings.rounding}};
     for (const auto& [name, value] : not_negative) {
         if (!(value >= 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is below zero");
     }
     if (settings.stepover_share >= 1) refuse("step_share of the toolpath is not less than 1");
     if (settings.fine_allowance > settings.allowance) refuse("fine_allowance is more than allowance");
     check_stepdown(machine.tools[tools.roughing], settings);
-    check_stepdown(machine.tools[tools.finishing], settings);
-    check_scallop(settings.scallop, machine.tools[tools.finishing], "scallop");
-    if (tools.fine) check_scallop(settings.fine_scallop, machine.tools[*tools.fine], "fine_scallop");
+    check_stepdown(machine.tools[tools.finishing.front()], settings);
+    for (const std::size_t tool : tools.finishing) check_scallop(settings.scallop, machine.tools[tool], "scallop");
 }
 
 Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t orientation) {

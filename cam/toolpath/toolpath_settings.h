@@ -3,43 +3,46 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "cam/cell/cell.h"
 #include "cam/toolpath/toolpath.h"
 
 namespace qchopper {
 
+// Which of the tools that finish go on where larger ones are done: all; those that add worthwhile_share of the surface
+// and more; none that is smaller than the largest ball below the tool of the roughing.
+enum class FineTools : std::uint8_t { all, worthwhile, none };
+
 struct ToolpathSettings {
-    double scallop = 0.25;       // height of the ridges that finishing leaves at most where the tool fits
-    double fine_scallop = 0.25;  // the same of fine finishing
+    double scallop = 0.25;  // height of the ridges that finishing leaves at most where the tool fits
     double path_tolerance = 0.1;
-    double cell = 0.25;            // of the maps for finishing
-    double allowance = 1.5;        // that roughing leaves
-    double fine_allowance = 0.5;   // that roughing with the tool of the finishing leaves
-    double stepdown = 15;          // largest height of a level of roughing
-    double stepover_share = 0.6;   // largest distance between passes of roughing, of the tool's diameter
-    double rounding = 5;           // see PathMove::is_rounded: of finishing
-    double roughing_rounding = 1;  // the same of roughing; at most two thirds of the allowance
+    double cell = 0.25;           // of the maps for finishing
+    double allowance = 1.5;       // that roughing leaves
+    double fine_allowance = 0.5;  // that roughing with the tool of the finishing leaves
+    double stepdown = 15;         // largest height of a level of roughing
+    double stepover_share = 0.6;  // largest distance between passes of roughing, of the tool's diameter
+    double rounding = 5;          // see PathMove::rounding: the largest
     // How far roughing comes beside the projection of the block; nothing: as far as it takes to begin beside the foam.
     std::optional<double> beside_block;
     std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
-    std::optional<std::size_t> finishing_tool;
-    std::optional<std::size_t> fine_tool;  // only if the finishing tool is given too
-    bool has_fine_finishing = true;        // where there is a tool for it
+    std::vector<std::size_t> finishing_tools;  // in their order; empty: chosen by choose_tools() and worthwhile_tools()
+    FineTools fine = FineTools::worthwhile;
+    double finest_tool = 0;  // least diameter of those that finish
 };
 
 // Indices in CellMachine::tools.
 struct ToolChoice {
     std::size_t roughing = 0;
-    std::size_t finishing = 0;
-    std::optional<std::size_t> fine;  // smaller than the tool of the finishing
+    std::vector<std::size_t> finishing;  // ball-ended, at least one, none larger than those before it
 };
 
-// Roughing: the largest flat or ball-ended tool, of equal ones a flat one, then the first. Finishing: the largest ball
-// that is smaller than that; else the largest. Fine finishing: the smallest ball, if it is smaller than that of
-// finishing. Throws InputError: config if the cell has no ball-ended tool, use if a tool of the settings is not in the
-// cell or finishing is asked of one that is not ball-ended.
+// Roughing: the largest flat or ball-ended tool, of equal ones a flat one, then the first. Finishing: all balls that
+// are no larger than that, or all balls if none is; first the largest, of equal ones the shortest, then the first; of
+// equal ones that are equally long the first alone. Throws InputError: config if the cell has no ball-ended tool, use
+// if a tool of the settings is not in the cell or finishing is asked of one that is not ball-ended.
 ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings);
 
 // Height of the levels of roughing with a tool: at most that of the settings, three quarters of its diameter, and its

@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
+
+#include "base/text.h"
+#include "cam/cell/job_tools.h"
+#include "cam/toolpath/worthwhile_tools.h"
 
 namespace qchopper {
 namespace {
@@ -12,12 +17,15 @@ std::string number_of(const CellMachine& machine, std::size_t tool) {
     return "tool " + std::to_string(machine.tools[tool].number);
 }
 
-// "tool 2 roughs, tool 3 finishes, tool 4 finishes what is too narrow for it".
+// "tool 2 roughs, tools 3 and 4 finish, and this one would shorten the work by less than its change takes or add less
+// than 0.3 % of the surface".
 std::string describe(const CellMachine& machine, const ToolChoice& chosen) {
-    std::string text =
-        number_of(machine, chosen.roughing) + " roughs, " + number_of(machine, chosen.finishing) + " finishes";
-    if (chosen.fine) text += ", " + number_of(machine, *chosen.fine) + " finishes what is too narrow for it";
-    return text;
+    std::vector<std::uint16_t> numbers;
+    for (const std::size_t tool : chosen.finishing) numbers.push_back(machine.tools[tool].number);
+    return number_of(machine, chosen.roughing) + " roughs, " + describe_tools(numbers) +
+           (numbers.size() > 1 ? " finish" : " finishes") +
+           "; it would shorten the work by less than its change takes, or add less than " +
+           fixed(100 * worthwhile_share, 1) + " % of the surface";
 }
 
 class Listing {
@@ -31,7 +39,7 @@ class Listing {
     std::vector<UnusedTool> list(std::size_t directions) const {
         std::vector<UnusedTool> unused;
         for (std::size_t d = 0; d < directions; ++d) {
-            if (!is_milled(d)) unused.push_back({std::nullopt, d, why(chosen_.fine.value_or(chosen_.finishing), d)});
+            if (!is_milled(d)) unused.push_back({std::nullopt, d, why(chosen_.finishing.back(), d)});
         }
         for (std::size_t tool = 0; tool < machine_.tools.size(); ++tool) {
             if (machine_.tools[tool].shape != ToolShape::ball) continue;
@@ -50,12 +58,10 @@ class Listing {
     bool is_milled(std::size_t orientation) const {
         return std::any_of(used_.begin(), used_.end(), [&](const auto& pair) { return pair.second == orientation; });
     }
-    bool is_chosen(std::size_t tool) const {
-        return tool == chosen_.roughing || tool == chosen_.finishing || tool == chosen_.fine;
-    }
+    bool finishes(std::size_t tool) const { return std::ranges::count(chosen_.finishing, tool) > 0; }
+    bool is_chosen(std::size_t tool) const { return tool == chosen_.roughing || finishes(tool); }
     std::string why(std::size_t tool, std::size_t orientation) const {
-        const bool finishes = tool == chosen_.finishing || tool == chosen_.fine;
-        if (!finishes) return "it roughs, and no foam is left for that";
+        if (!finishes(tool)) return "it roughs, and no foam is left for that";
         if (has_nothing_.contains({tool, orientation})) {
             return "tools and orientations before it leave no surface that it would finish";
         }

@@ -35,8 +35,9 @@ enum class FindingKind : std::uint8_t {
     rapid_in_foam,
     feed_window,  // foam is cut slower or faster than the tool may
     link_feed,
-    deep_cut,     // more foam at once than the flute is long
-    below_floor,  // a tool point below -spoil + 2 mm
+    deep_cut,      // more foam at once than the flute is long
+    removal_rate,  // foam is removed faster than the tool may
+    below_floor,   // a tool point below -spoil + 2 mm
     spindle_off,
     spindle_speed,
     extraction_off,
@@ -59,7 +60,7 @@ enum class FindingKind : std::uint8_t {
     no_cut,         // the program removes nothing
     flush_face      // a cap is not the sawn face that the job says, or a tool comes to one
 };
-constexpr std::size_t finding_kinds = 42;
+constexpr std::size_t finding_kinds = 43;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

@@ -10,6 +10,7 @@
 #include "sim/replay/gouge.h"
 #include "sim/replay/machine_walk.h"
 #include "sim/replay/reachable.h"
+#include "sim/replay/removal_rate_check.h"
 
 namespace qchopper {
 namespace {
@@ -133,6 +134,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     if (scene.before != nullptr) stock_model.start_from(*scene.before);
     report.milling = mill_stock(stock_model, path, scene, options.is_worst, log, context);
     report.account = account_of(path, report.time, report.milling, *scene.cell->machine);
+    check_removal_rate(path, report.milling.lines, scene, log);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
     check_beside_flush_faces(path, scene, log, context);
     report.largest_gouge = gouges.largest;

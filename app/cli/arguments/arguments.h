@@ -61,7 +61,9 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
-    std::vector<std::uint16_t> tools;  // numbers
+    std::vector<std::uint16_t> tools;   // numbers
+    std::optional<double> finest_tool;  // mm
+    std::optional<std::string> fine;    // auto | all | none
     std::optional<std::string> preset;
     std::optional<int> min_cuts;
     std::optional<std::size_t> max_faces;

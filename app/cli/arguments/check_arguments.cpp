@@ -59,6 +59,8 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
                                                     {a.size_ok, "--size-ok"},
                                                     {a.preset.has_value(), "--preset"},
                                                     {!a.tools.empty(), "--tools"},
+                                                    {a.finest_tool.has_value(), "--finest-tool"},
+                                                    {a.fine.has_value(), "--fine"},
                                                     {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
                                                     {a.fragments.has_value(), "--fragments"},
                                                     {a.out.has_value(), "--out"},
@@ -129,7 +131,12 @@ void check_scan(const SegmentArguments& a, const Action& action) {
     }
     check_unit(a);
     if (!a.out) refuse("no project folder is named", "pass -o NAME.qch");
-    if (!a.tools.empty() && !a.cell) refuse("--tools needs a cell", "pass --cell FILE, which lists them");
+    for (const auto& [is_given, option] : {std::pair{!a.tools.empty(), "--tools"},
+                                           {a.finest_tool.has_value(), "--finest-tool"},
+                                           {a.fine.has_value(), "--fine"}}) {
+        if (is_given && !a.cell)
+            refuse(std::string(option) + " needs a cell", "pass --cell FILE, which lists the tools");
+    }
     if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "pass --cell FILE, for example cells/foam-1.toml");
 }
 

@@ -133,6 +133,9 @@ ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_i
     if (a.out) choices.folder = without_slash(*a.out);
     choices.cell_file = a.cell;
     choices.tools = ascending(a.tools);
+    choices.finest_tool_mm = a.finest_tool.value_or(0);
+    if (a.fine && *a.fine == "all") choices.fine_tools = FineTools::all;
+    if (a.fine && *a.fine == "none") choices.fine_tools = FineTools::none;
     return choices;
 }
 

@@ -73,7 +73,16 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     add_units(c, "scan", a.units);
     add_scale(c, a.scale);
     c->add_option("--cell", a.cell, "the cell file (docs/user/cell-file.md)");
-    add_tools(c, a.tools);
+    CLI::Option* tools = add_tools(c, a.tools);
+    c->add_option("--finest-tool", a.finest_tool, "finish with no ball-ended tool of a smaller diameter, in mm (all)")
+        ->check(CLI::PositiveNumber)
+        ->excludes(tools);
+    c->add_option(
+         "--fine", a.fine,
+         "which small tools finish what larger ones leave: all; auto, those that add 0.3 % of a piece's "
+         "surface or more; none, so that the largest ball below the tool of the roughing is the smallest (auto)")
+        ->check(one_of({"auto", "all", "none"}))
+        ->excludes(tools);
     c->add_option(
          "--preset", a.preset,
          "objectives and stop rules by name: carve cuts for what a tilting tool reaches, until of no piece more "

@@ -51,7 +51,7 @@ void fill_in(JobProgram& program, const ProgramFiles& files, const Cell& cell) {
 
 }  // namespace
 
-ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps) {
+ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps, FineTools fine) {
     ProvenJob made;
     made.cell = read_cell_file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (cell_name + ".toml"));
     JobInput input;
@@ -66,7 +66,7 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     input.stock_fit = piece_setup.stock_fit;
     input.machine_reachability = piece_setup.machine_reachability;
     if (caps) input.caps = caps(input.setup);
-    PiecePrograms programs = make_programs(input.piece, piece_setup, 1, input.cell, input.caps, {});
+    PiecePrograms programs = make_programs(input.piece, piece_setup, 1, input.cell, input.caps, {}, fine);
     input.caps = programs.caps;
     if (programs.parts.size() != 1) throw std::runtime_error("no single program: " + programs.none_because);
     input.program = programs.parts.front().input;

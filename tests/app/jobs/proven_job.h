@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/dispatch/verify_jobs.h"
+#include "app/jobs/piece_program.h"
 #include "tests/sim/replay/mutations.h"
 
 namespace qchopper {
@@ -22,7 +23,8 @@ struct ProvenJob {
 // The caps of a piece that lies in a setup.
 using CapsOf = std::function<std::vector<DrawnCap>(const Setup&)>;
 
-ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps = {});
+ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps = {},
+                          FineTools fine = FineTools::worthwhile);
 
 // Of the piece of tests/app/ball_cap.h. `cell_name` as in cells/NAME.toml.
 const ProvenJob& proven_job(const std::string& cell_name);

@@ -34,7 +34,6 @@ class RandomProgram {
             operation.orientation = whole(0, 2);
             operation.rpm = 15'000;
             operation.link_feed = 300;
-            operation.rounding = 2;
             operation.entry = {0, 300, {Joints{}}};
             operation.exit = {0, 300, {Joints{}}};
             for (std::size_t r = whole(1, max_runs); r > 0; --r) operation.runs.push_back(run(whole(1, max_moves)));
@@ -58,7 +57,7 @@ class RandomProgram {
         made.start = point();
         made.link_speed = 300;
         for (std::size_t i = 0; i < moves; ++i) {
-            made.moves.push_back({point(), MoveKind::cut, i % 3 > 0, whole(0, 3) > 0 ? 100.0 : 55.0});
+            made.moves.push_back({point(), MoveKind::cut, static_cast<double>(i % 3), whole(0, 3) > 0 ? 100.0 : 55.0});
         }
         return made;
     }

@@ -368,11 +368,11 @@ TEST(PostKrl, RoundsNoCornerThatIsAStop) {
     program.operations.resize(1);
     program.operations[0].runs.resize(1);
     std::vector<ProgramMove>& moves = program.operations[0].runs[0].moves;
-    moves = {{{1, 2, 3}, MoveKind::approach, false, 60},
-             {{10, 2, 3}, MoveKind::cut, true, 100},
-             {{10.001, 2, 3}, MoveKind::cut, false, 100},
-             {{20, 2, 3}, MoveKind::cut, true, 100},
-             {{30, 2, 3}, MoveKind::cut, true, 100}};
+    moves = {{{1, 2, 3}, MoveKind::approach, 0, 60},
+             {{10, 2, 3}, MoveKind::cut, 2, 100},
+             {{10.001, 2, 3}, MoveKind::cut, 0, 100},
+             {{20, 2, 3}, MoveKind::cut, 2, 100},
+             {{30, 2, 3}, MoveKind::cut, 2, 100}};
     const auto lines = [&] {
         std::vector<std::string> found;
         for (const ScannedLine& line : scan(post_krl(program, jobs()[0].cell, {7})[0].files[2].text)) {
@@ -383,8 +383,26 @@ TEST(PostKrl, RoundsNoCornerThatIsAStop) {
     };
     EXPECT_EQ(lines(), (std::vector<std::string>{"{X 1.00,Y 2.00,Z 3.00}", "{X 10.00,Y 2.00,Z 3.00}",
                                                  "{X 20.00,Y 2.00,Z 3.00} C_DIS", "{X 30.00,Y 2.00,Z 3.00}"}));
-    program.operations[0].rounding = 0;
+    moves[3].rounding = 0.0009;
     EXPECT_EQ(lines()[2], "{X 20.00,Y 2.00,Z 3.00}");
+}
+
+// A distance is stated where it changes, and exact corners change nothing.
+TEST(PostKrl, StatesHowFarEachCornerIsRounded) {
+    Program program = program_of(jobs()[0]);
+    program.operations.resize(1);
+    program.operations[0].runs.resize(1);
+    program.operations[0].runs[0].moves = {{{10, 2, 3}, MoveKind::cut, 5, 100},   {{20, 2, 3}, MoveKind::cut, 5, 100},
+                                           {{20, 9, 3}, MoveKind::cut, 0, 100},   {{30, 9, 3}, MoveKind::cut, 5, 100},
+                                           {{30, 2, 3}, MoveKind::cut, 0.3, 100}, {{40, 2, 3}, MoveKind::cut, 5, 100},
+                                           {{50, 2, 3}, MoveKind::cut, 0, 100}};
+    std::vector<std::string> found;
+    for (const ScannedLine& line : scan(post_krl(program, jobs()[0].cell, {7})[0].files[2].text)) {
+        if (line.text.starts_with("$APO.CDIS")) found.push_back(line.text);
+        if (line.text.ends_with("C_DIS")) found.emplace_back("rounded");
+    }
+    EXPECT_EQ(found, (std::vector<std::string>{"$APO.CDIS = 5.000", "rounded", "rounded", "rounded",
+                                               "$APO.CDIS = 0.300", "rounded", "$APO.CDIS = 5.000", "rounded"}));
 }
 
 TEST(PostKrl, RefusesOtherDialectsAndMissingSignals) {

@@ -48,19 +48,19 @@ inline PathRun raster(const Setup& setup, Vec3 tool_axis, double retract, double
         const Vec3 flat = middle + along * axes.u + side * axes.v;
         return flat + (up - dot(tool_axis, flat)) * tool_axis;
     };
-    PathRun run{at(-half, -half, retract), {{at(-half, -half, height), MoveKind::approach, false}}};
+    PathRun run{at(-half, -half, retract), {{at(-half, -half, height), MoveKind::approach}}};
     bool is_forward = true;
     for (double side = -half; side <= half + 1e-9; side += step) {
         for (int i = 0; i <= 20; ++i) {
             const double along = (is_forward ? 1 : -1) * half * (i - 10) / 10.0;
             const double wave = 3 * std::sin(0.05 * along + 0.02 * side);
-            run.moves.push_back({at(along, side, height + wave), MoveKind::cut, i > 0 && i < 20});
+            run.moves.push_back({at(along, side, height + wave), MoveKind::cut, i > 0 && i < 20 ? 2.0 : 0.0});
         }
         is_forward = !is_forward;
     }
-    run.moves.back().is_rounded = false;
+    run.moves.back().rounding = 0;
     const Vec3 last = run.moves.back().tip;
-    run.moves.push_back({last + (retract - dot(tool_axis, last)) * tool_axis, MoveKind::retract, false});
+    run.moves.push_back({last + (retract - dot(tool_axis, last)) * tool_axis, MoveKind::retract});
     return run;
 }
 

@@ -21,7 +21,7 @@ PathRun random_run(std::mt19937& random, std::size_t moves) {
     for (std::size_t i = 0; i < moves; ++i) {
         const int kind = std::uniform_int_distribution<int>(0, 9)(random);
         const MoveKind what = i == 0 ? MoveKind::approach : kind == 0 ? MoveKind::link : MoveKind::cut;
-        run.moves.push_back({{number(), number(), number()}, what, kind > 2});
+        run.moves.push_back({{number(), number(), number()}, what, kind > 2 ? 1.0 : 0.0});
     }
     run.moves.push_back({{number(), number(), 300}, MoveKind::retract, false});
     return run;
@@ -34,7 +34,7 @@ TEST(SplitRun, RetractsAndComesBack) {
         const auto [head, tail] = split_run(run, count, tilted, 400);
         EXPECT_EQ(head.start, run.start);
         EXPECT_EQ(head.moves.size() + tail.moves.size(), run.moves.size() + 3);
-        EXPECT_FALSE(head.moves[count - 1].is_rounded);
+        EXPECT_EQ(head.moves[count - 1].rounding, 0);
         EXPECT_EQ(head.moves.back().kind, MoveKind::retract);
         EXPECT_NEAR(dot(tilted, head.moves.back().tip), 400, 1e-9);
         EXPECT_NEAR(norm(cross(tilted, head.moves.back().tip - run.moves[count - 1].tip)), 0, 1e-9);

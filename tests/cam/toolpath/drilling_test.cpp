@@ -36,7 +36,7 @@ std::unique_ptr<Milled> milled(const TriangleMesh& mesh) {
     made->cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
     ToolpathSettings settings;
     settings.cell = 0.5;
-    settings.has_fine_finishing = false;
+    settings.finishing_tools = {2};  // the ball of 12 mm
     made->left.emplace(made->setup);
     made->toolpath = make_toolpath(made->setup, mesh, made->cell, settings, {}, &*made->left);
     return made;

@@ -1,6 +1,6 @@
 // Which surface each direction finishes.
 
-#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/finishing/finishing_region.h"
 
 #include <gtest/gtest.h>
 

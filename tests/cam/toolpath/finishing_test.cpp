@@ -1,6 +1,6 @@
 // Finishing passes, replayed on a grid: closed forms, no gouge, what is left, and the same for any number of threads.
 
-#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing/finishing.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
-#include "cam/toolpath/scallop.h"
+#include "cam/toolpath/finishing/scallop.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"

@@ -1,6 +1,6 @@
 // Reduced paths: between all gates, with as few corners as known lines need, and rounded only where that fits too.
 
-#include "cam/toolpath/path_reduction.h"
+#include "cam/toolpath/finishing/path_reduction.h"
 
 #include <gtest/gtest.h>
 

@@ -140,7 +140,7 @@ ToolPath lines_of(const Toolpath& path, std::size_t tool) {
                 line.to = at = run.moves[i].tip;
                 line.tool = static_cast<std::uint32_t>(tool);
                 line.orientation = static_cast<std::uint32_t>(operation.orientation);
-                line.rounding = run.moves[i].is_rounded ? operation.rounding : 0;
+                line.rounding = run.moves[i].rounding;
                 line.follows_line = i > 0;
                 lines.lines.push_back(line);
             }

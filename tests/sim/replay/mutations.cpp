@@ -100,6 +100,28 @@ bool lose_chunk(ProgramFiles& files, Lines& lines, const std::vector<std::size_t
     return true;
 }
 
+// The first chunk, or the last one, that says it is for an operation.
+auto lose_operation(const std::string& operation, bool is_last) {
+    return [operation, is_last](ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
+        std::optional<std::size_t> found;
+        std::string stem_found;
+        for (const std::size_t call : calls) {
+            const std::string stem = lower(lines[call].substr(0, lines[call].find('(')));
+            const auto file =
+                std::find_if(files.begin(), files.end(), [&](const ProgramFile& f) { return stem_of(f) == stem; });
+            if (file == files.end() || file->text.find(";operation " + operation + "\r\n") == std::string::npos)
+                continue;
+            if (found && !is_last) continue;
+            found = call;
+            stem_found = stem;
+        }
+        if (!found || calls.size() < 2) return false;
+        std::erase_if(files, [&](const ProgramFile& file) { return stem_of(file) == stem_found; });
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(*found));
+        return true;
+    };
+}
+
 std::optional<ProgramFiles> swap_chunks(const ProgramFiles& files) {
     const std::size_t first = next_chunk(files);
     std::size_t last = files.size();
@@ -215,6 +237,11 @@ void add_speeds(std::vector<Mutation>& all) {
     all.push_back(everywhere("feed_times_60", each_value("$vel.cp", times(60))));
     all.push_back(everywhere("feed_times_2", each_value("$vel.cp", times(2))));
     all.push_back(everywhere("feed_by_60", each_value("$vel.cp", times(1.0 / 60))));
+    // 150 mm/s is within the window of the tools that rough.
+    all.push_back(
+        in_one_chunk("full_feed_in_full_cuts", each_value("$vel.cp", [](double v) { return v < 0.15 ? 0.15 : v; })));
+    all.push_back(
+        everywhere("rounded_2_mm_farther", each_value("$apo.cdis", [](double v) { return v > 0 ? v + 2 : v; })));
     all.push_back(everywhere("rounding_times_20", [](Lines& lines) {
         const bool larger = each_value("$apo.cdis", [](double v) { return std::min(20 * v, 1000.0); })(lines);
         each("lin ", [](std::string& l) {
@@ -281,6 +308,9 @@ void add_signals(std::vector<Mutation>& all) {
 
 void add_chunks(std::vector<Mutation>& all) {
     all.push_back(in_main("chunk_lost", lose_chunk));
+    all.push_back(in_main("first_roughing_lost", lose_operation("roughing", false)));
+    all.push_back(in_main("last_roughing_lost", lose_operation("roughing", true)));
+    all.push_back(in_main("last_fine_finishing_lost", lose_operation("fine finishing", true)));
     all.push_back(of_files("chunks_exchanged", swap_chunks));
     all.push_back(in_main("calls_exchanged", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
         if (calls.size() < 2) return false;

@@ -45,9 +45,10 @@ std::string refusal(const BoxJob& job, const ProgramFiles& files) {
 }
 
 // Mutants of this job that mill the same piece and break no rule: the tool points straight down, where signs and order
-// of A and C only turn it about its axis; a point is moved along its line; above a chunk's last point nothing stands.
-const std::vector<std::string> equivalent{"angle_sign_lost", "angles_in_wrong_order", "point_moved_x",
-                                          "last_retract_lost"};
+// of A and C only turn it about its axis; a point is moved along its line; above a chunk's last point nothing stands;
+// no cut is so deep that its feed is lowered, and corners are rounded beside the piece.
+const std::vector<std::string> equivalent{"angle_sign_lost",   "angles_in_wrong_order",  "point_moved_x",
+                                          "last_retract_lost", "full_feed_in_full_cuts", "rounded_2_mm_farther"};
 
 TEST(Mutations, EachIsRefused) {
     std::size_t refused = 0;

@@ -13,7 +13,7 @@
 // Tests: tests/cam/toolpath/finishing_test.cpp, TheFloorIsClearedWithoutTheWallBesideIt and
 // TheStripUnderAnOverhangingEdgeIsCarved.
 
-#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing/finishing.h"
 
 #include <algorithm>
 #include <array>
@@ -28,9 +28,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "cam/toolpath/raster_passes.h"
-#include "cam/toolpath/scallop.h"
-#include "cam/toolpath/waterline_passes.h"
+#include "cam/toolpath/finishing/raster_passes.h"
+#include "cam/toolpath/finishing/scallop.h"
+#include "cam/toolpath/finishing/waterline_passes.h"
 #include "segment/raster/square_dilation.h"
 
 namespace qchopper {

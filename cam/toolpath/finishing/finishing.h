@@ -15,7 +15,7 @@
 #include "base/context.h"
 #include "cam/cell/cutting_tool.h"
 #include "cam/stock/cl_surface.h"
-#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/finishing/finishing_region.h"
 #include "cam/toolpath/pass.h"
 
 namespace qchopper {

@@ -4,7 +4,7 @@
 // corner that is rounded is compared with the gates at points of its parabola. O(gates * gates that a straight line
 // passes).
 
-#include "cam/toolpath/path_reduction.h"
+#include "cam/toolpath/finishing/path_reduction.h"
 
 #include <algorithm>
 #include <array>

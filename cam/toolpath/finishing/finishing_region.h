@@ -32,10 +32,12 @@ class RestMaterial {
     // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
     // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
     // Foam up to `near` is as good as none, and differences count by factors of two from there. With `worth`, only
-    // points that have more foam than that so far. Surface that faces down by up to 12 degrees counts where at most 2 *
-    // near is left over it: the strip under an edge that the tool goes along. Afterwards the points have what is left
-    // now. The result does not depend on the number of threads. O(points + cells).
-    FinishingRegion take(const HeightField& remaining, double near, double overlap, double worth = 0);
+    // points that have more foam than that so far; `is_whole`: only points over which no more than `near` stays.
+    // Surface that faces down by up to 12 degrees counts where at most 2 * near is left over it: the strip under an
+    // edge that the tool goes along. Afterwards the points have what is left now. The result does not depend on the
+    // number of threads. O(points + cells).
+    FinishingRegion take(const HeightField& remaining, double near, double overlap, double worth = 0,
+                         bool is_whole = false);
 
     // The number of calls of take().
     std::size_t takes() const { return takes_; }
@@ -44,6 +46,9 @@ class RestMaterial {
     // more is left, are left to other takes, as far as these find less foam than it or what was before it. Whether
     // there are any. O(points + cells).
     bool give_back(std::size_t take, const HeightField& remaining, double near);
+
+    // Of the surface that is to be milled.
+    double area_mm2() const;
 
     // Share of the area over which at most `near` times 2^k is left, of the last `near`.
     double share_within(std::size_t k) const;

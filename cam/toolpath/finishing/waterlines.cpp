@@ -2,7 +2,7 @@
 // between them. The pieces of a level are joined by the sides of squares on which they end, each of which begins one
 // piece and ends one. O(squares + crossings log crossings) a level.
 
-#include "cam/toolpath/waterlines.h"
+#include "cam/toolpath/finishing/waterlines.h"
 
 #include <algorithm>
 #include <array>

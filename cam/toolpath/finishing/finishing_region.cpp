@@ -2,7 +2,7 @@
 // a triangle are the middles of the upright ones of the small triangles into which it is divided evenly.
 // O(points * directions).
 
-#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/finishing/finishing_region.h"
 
 #include <algorithm>
 #include <array>
@@ -86,7 +86,8 @@ void RestMaterial::for_each_point(std::size_t triangle, const Visit& visit) cons
     }
 }
 
-FinishingRegion RestMaterial::take(const HeightField& remaining, double near, double overlap, double worth) {
+FinishingRegion RestMaterial::take(const HeightField& remaining, double near, double overlap, double worth,
+                                   bool is_whole) {
     assert(near > 0 && overlap >= 0);
     FinishingRegion region(remaining.height.size(), not_finished);
     ++takes_;
@@ -95,7 +96,7 @@ FinishingRegion RestMaterial::take(const HeightField& remaining, double near, do
         for (std::size_t t = first; t < end; ++t) {
             const Vec3 normal = normalized(rotate(remaining.piece_in_field, area_vector(*mesh_, t)));
             if (!(normal.z > lowest_facing)) continue;
-            const std::uint8_t worst = normal.z > overhanging ? max_twice : worst_under_edges;
+            const std::uint8_t worst = is_whole ? 0 : normal.z > overhanging ? max_twice : worst_under_edges;
             for_each_point(t, [&](std::size_t index, Vec3 p) {
                 if (left_[index] <= min_before && (left_[index] == 0 || worth > 0)) return;
                 const Vec3 at = apply(remaining.piece_in_field, p);
@@ -132,6 +133,14 @@ bool RestMaterial::give_back(std::size_t take, const HeightField& remaining, dou
         }
     });
     return is_any;
+}
+
+double RestMaterial::area_mm2() const {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh_->triangles.size(); ++t) {
+        if (first_point_[t + 1] > first_point_[t]) area += norm(area_vector(*mesh_, t));
+    }
+    return area;
 }
 
 double RestMaterial::share_within(std::size_t k) const {

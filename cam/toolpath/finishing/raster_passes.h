@@ -7,8 +7,8 @@
 
 #include "base/context.h"
 #include "cam/stock/cl_surface_view.h"
+#include "cam/toolpath/finishing/path_reduction.h"
 #include "cam/toolpath/pass.h"
-#include "cam/toolpath/path_reduction.h"
 
 namespace qchopper {
 

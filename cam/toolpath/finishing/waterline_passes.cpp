@@ -1,7 +1,7 @@
 // Levels are halved twice where needed: at each point of the level between two others the surface is followed up and
 // down to them, and the scallop height comes from where they are (scallop.h). O(levels * squares of the map) at most.
 
-#include "cam/toolpath/waterline_passes.h"
+#include "cam/toolpath/finishing/waterline_passes.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,9 +12,9 @@
 
 #include "base/parallel.h"
 #include "cam/stock/edge_rises.h"
-#include "cam/toolpath/path_reduction.h"
-#include "cam/toolpath/scallop.h"
-#include "cam/toolpath/waterlines.h"
+#include "cam/toolpath/finishing/path_reduction.h"
+#include "cam/toolpath/finishing/scallop.h"
+#include "cam/toolpath/finishing/waterlines.h"
 #include "segment/raster/bilinear_cell.h"
 
 namespace qchopper {

@@ -1,6 +1,6 @@
 // Two circles of one radius meet square to the middle of the chord of their middles, sqrt(R^2 - chord^2 / 4) away.
 
-#include "cam/toolpath/scallop.h"
+#include "cam/toolpath/finishing/scallop.h"
 
 #include <cassert>
 #include <cmath>

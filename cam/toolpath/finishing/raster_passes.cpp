@@ -2,7 +2,7 @@
 // (scallop.h with the chord and the bulge of the CL surface between the rows). The pitch is the one with which that
 // gives the least length. O(cells).
 
-#include "cam/toolpath/raster_passes.h"
+#include "cam/toolpath/finishing/raster_passes.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/toolpath/scallop.h"
+#include "cam/toolpath/finishing/scallop.h"
 
 namespace qchopper {
 namespace {

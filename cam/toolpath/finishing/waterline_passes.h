@@ -7,9 +7,9 @@
 #include "base/context.h"
 #include "cam/stock/cl_surface.h"
 #include "cam/stock/cl_surface_view.h"
-#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/finishing/finishing_region.h"
+#include "cam/toolpath/finishing/raster_passes.h"
 #include "cam/toolpath/pass.h"
-#include "cam/toolpath/raster_passes.h"
 
 namespace qchopper {
 
