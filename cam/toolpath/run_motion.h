@@ -14,8 +14,9 @@
 
 namespace qchopper {
 
-// Of a tool's rate: what is removed is known in cells alone.
-constexpr double used_rate = 0.92;
+// Of a tool's rate: what is removed is known in cells alone. With 0.92 the proof found up to 1.33 of the rate on pieces
+// of the bunny at 1.5 m.
+constexpr double used_rate = 0.72;
 
 // The largest distance of rounding, at most `largest`, with which the corner between from -> at -> to is passed within
 // `deviation`. 0 where a move has no length.
