@@ -12,6 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr double feed_ratio = 0.95;  // of neighbouring feeds
+constexpr int halvings = 40;         // of a range of feeds
 constexpr double kept_feed = 0.85;   // of what is allowed: a slower feed is raised
 constexpr std::array<double, 6> distances{5, 2, 0.8, 0.3, 0.12, 0.05};
 
@@ -25,28 +26,40 @@ bool is_cutting(const PathMove& move) {
     return move.kind == MoveKind::cut || move.kind == MoveKind::approach;
 }
 
-// Lengths of the moves of a run, volumes that they remove, and feeds with which they are driven.
+// The moves of a run: lengths, volumes that they remove, feeds with which they are driven, and least feeds.
 struct DrivenMoves {
     std::vector<double> length;
     std::span<const double> volume;
     std::vector<double> feed;
+    std::vector<double> least;
 
-    // Slows the moves that end with move `last` and are together as long as `width`, if they remove more than `rate`.
-    void slow(const PathRun& run, std::size_t last, double width, double rate) {
+    // Slows the fastest of the moves that end with move `last` and are together as long as `width`, to one feed, if
+    // they remove more than `rate`. To slow all of them by the same factor would bring those that are slow already
+    // below their least feed.
+    void slow(std::size_t last, double width, double rate) {
         double mm = 0;
         double mm3 = 0;
-        double seconds = 0;
         std::size_t first = last + 1;
         while (first > 0 && mm < width) {
             --first;
             mm += length[first];
             mm3 += volume[first];
-            seconds += length[first] / feed[first];
         }
-        if (mm3 <= rate * seconds) return;
-        for (std::size_t i = first; i <= last; ++i) {
-            if (is_cutting(run.moves[i])) feed[i] *= rate * seconds / mm3;
+        const auto feed_at = [&](std::size_t i, double most) { return std::min(feed[i], std::max(most, least[i])); };
+        const auto is_slow_enough = [&](double most) {
+            double seconds = 0;
+            for (std::size_t i = first; i <= last; ++i) seconds += length[i] / feed_at(i, most);
+            return mm3 <= rate * seconds;
+        };
+        double high = *std::max_element(feed.begin() + static_cast<std::ptrdiff_t>(first),
+                                        feed.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+        if (is_slow_enough(high)) return;
+        double low = 0;
+        for (int k = 0; k < halvings; ++k) {
+            const double middle = 0.5 * (low + high);
+            (is_slow_enough(middle) ? low : high) = middle;
         }
+        for (std::size_t i = first; i <= last; ++i) feed[i] = feed_at(i, low);
     }
 };
 
@@ -79,27 +92,31 @@ void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell,
         if (!is_cutting(move)) return operation.link_feed;
         return move.kind == MoveKind::cut ? operation.feed : operation.approach_feed;
     };
-    DrivenMoves moves{{}, removed_mm3, {}};
+    const auto least_feed = [&](const PathMove& move) {
+        if (!is_cutting(move)) return operation.link_feed;
+        return std::min(own_feed(move), (move.kind == MoveKind::cut ? 1 : 0.5) * tool.feed_min_mm_per_s);
+    };
+    DrivenMoves moves{{}, removed_mm3, {}, {}};
     Vec3 at = run.start;
     for (const PathMove& move : run.moves) {
         moves.length.push_back(norm(move.tip - at));
         moves.feed.push_back(own_feed(move));
+        moves.least.push_back(least_feed(move));
         at = move.tip;
     }
     const double rate = used_rate * (1 - std::min(cell / tool.diameter, 1.0)) * tool.removal_mm3_per_s;
-    for (std::size_t i = 0; i < run.moves.size(); ++i) moves.slow(run, i, tool.diameter, rate);
+    for (std::size_t i = 0; i < run.moves.size(); ++i) moves.slow(i, tool.diameter, rate);
     std::array<double, 2> current{operation.feed, operation.approach_feed};
     for (std::size_t i = 0; i < run.moves.size(); ++i) {
         PathMove& move = run.moves[i];
         if (!is_cutting(move)) continue;
         const bool is_cut = move.kind == MoveKind::cut;
         const double own = own_feed(move);
-        const double least = std::min(own, (is_cut ? 1 : 0.5) * tool.feed_min_mm_per_s);
         const double allowed = std::min(own, moves.feed[i]);
         double& feed = current[is_cut ? 0 : 1];
         if (feed > allowed || feed < kept_feed * allowed || allowed == own) {
             const double steps = std::ceil(std::log(allowed / own) / std::log(feed_ratio) - 1e-9);
-            feed = std::max(least, own * std::pow(feed_ratio, steps));
+            feed = std::max(moves.least[i], own * std::pow(feed_ratio, steps));
         }
         move.feed = feed < own ? feed : 0;
     }

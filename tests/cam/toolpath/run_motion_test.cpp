@@ -100,6 +100,25 @@ TEST(RunMotion, NoWayIsMilledFasterThanTheToolMay) {
     }
 }
 
+// Short lines through a full slot, at a feed a little above the least: none of them makes up for a faster one.
+TEST(RunMotion, ShortLinesOfOneSectionHaveOneFeed) {
+    PathRun run{{0, 0, 0}, {}};
+    std::vector<double> removed;
+    for (int i = 1; i <= 30; ++i) {
+        run.moves.push_back({{5.0 * i, 0, 0}});
+        removed.push_back(5 * 700.0);
+    }
+    CuttingTool tool = tool_of(20, 24000);
+    tool.feed_min_mm_per_s = 20;
+    Operation operation;
+    operation.feed = 150;
+    limit_feeds(run, removed, 0, tool, operation);
+    for (std::size_t i = 4; i < run.moves.size(); ++i) {
+        EXPECT_LE(run.moves[i].feed, used_rate * 24000 / 700 * (1 + 1e-9)) << i;
+        EXPECT_GE(run.moves[i].feed, 20) << i;
+    }
+}
+
 TEST(RunMotion, ALightCutKeepsTheFullFeedAndAHeavyOneNoLessThanTheLeast) {
     PathRun run{{0, 0, 0}, {{{50, 0, 0}}, {{100, 0, 0}}, {{150, 0, 0}}}};
     CuttingTool tool = tool_of(20, 24000);
