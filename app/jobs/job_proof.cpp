@@ -220,31 +220,6 @@ std::vector<ProofFigure> figures_of(const ReplayReport& report, const ReplayScen
     return figures;
 }
 
-std::vector<ProofTime> times_of(const TimeAccount& account) {
-    std::vector<ProofTime> times;
-    for (const TimeRow& row : account.rows) {
-        ProofTime& time = times.emplace_back();
-        time.operation = row.operation;
-        time.tool = row.tool;
-        time.tool_mm3_per_s = row.tool_mm3_per_s;
-        time.cutting_s = row.cutting_s;
-        time.air_s = row.air_s;
-        time.link_s = row.link_s;
-        time.acceleration_s = row.acceleration_s;
-        time.joint_move_s = row.joint_move_s;
-        time.tool_change_s = row.tool_change_s;
-        time.cutting_mm = row.cutting_mm;
-        time.air_mm = row.air_mm;
-        time.link_mm = row.link_mm;
-        time.removed_mm3 = row.removed_mm3;
-        time.lines = row.lines;
-        time.stops = row.stops;
-        time.short_lines = row.short_lines;
-        time.tool_changes = row.tool_changes;
-    }
-    return times;
-}
-
 // That the manifest says of each ball-ended tool that may be used why it is not, where it is not.
 void check_left_out(const ReplayScene& scene, const JobProgram& program, JobProof& proof) {
     const std::vector<CuttingTool>& tools = scene.cell->machine->tools;
@@ -309,7 +284,7 @@ JobProof prove(const ProofInput& input, const Context& context) {
         if (before) scene.before = &*before;
         const ReplayReport report = replay(*program, scene, options, context);
         proof.figures = figures_of(report, scene, input.program, options.cell);
-        proof.time = times_of(report.account);
+        proof.time = report.account;
         if (scene.is_last) check_left_out(scene, input.program, proof);
         if (!scene.is_last) proof.stock_left = to_bytes(report.left);
         proof.deviation = report.deviation;

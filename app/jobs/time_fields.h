@@ -1,4 +1,4 @@
-// The table of fields of ProofTime, which verdicts and reports write.
+// The table of fields of MachineTime, which verdicts and reports write.
 //
 // Seconds, mm, mm3. No amount is negative.
 
@@ -9,7 +9,7 @@
 
 namespace qchopper {
 
-template <class V, Of<ProofTime> T>
+template <class V, Of<MachineTime> T>
 void fields(V& v, T& time) {
     using json_values::not_negative;
     v("operation", time.operation);

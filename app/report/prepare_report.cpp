@@ -66,8 +66,8 @@ std::vector<std::string> missing_programs(const PreparedProject& prepared) {
 }
 
 // Of all jobs, those that were kept too.
-std::vector<ProofTime> times_of(const PreparedProject& prepared) {
-    std::vector<ProofTime> rows;
+std::vector<MachineTime> times_of(const PreparedProject& prepared) {
+    std::vector<MachineTime> rows;
     for (const PieceReport& piece : prepared.pieces) {
         for (const JobVerdict& verdict : piece.verdicts)
             rows.insert(rows.end(), verdict.time.begin(), verdict.time.end());

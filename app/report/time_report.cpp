@@ -17,36 +17,19 @@ std::string hours(double seconds) {
     return fixed(seconds / 3600, 2);
 }
 
-void add(ProofTime& sum, const ProofTime& row) {
-    sum.cutting_s += row.cutting_s;
-    sum.air_s += row.air_s;
-    sum.link_s += row.link_s;
-    sum.acceleration_s += row.acceleration_s;
-    sum.joint_move_s += row.joint_move_s;
-    sum.tool_change_s += row.tool_change_s;
-    sum.cutting_mm += row.cutting_mm;
-    sum.air_mm += row.air_mm;
-    sum.link_mm += row.link_mm;
-    sum.removed_mm3 += row.removed_mm3;
-    sum.lines += row.lines;
-    sum.stops += row.stops;
-    sum.short_lines += row.short_lines;
-    sum.tool_changes += row.tool_changes;
-}
-
-ProofTime sum_of(const std::vector<ProofTime>& rows, const std::string& operation) {
-    ProofTime sum;
-    for (const ProofTime& row : rows) {
-        if (operation.empty() || row.operation == operation) add(sum, row);
+MachineTime sum_of_kind(const std::vector<MachineTime>& rows, const std::string& operation) {
+    MachineTime sum;
+    for (const MachineTime& row : rows) {
+        if (row.operation == operation) add(sum, row);
     }
     return sum;
 }
 
-std::string roughing_words(const std::vector<ProofTime>& rows) {
+std::string roughing_words(const std::vector<MachineTime>& rows) {
     constexpr const char* kind = "roughing";
-    const ProofTime roughing = sum_of(rows, kind);
+    const MachineTime roughing = sum_of_kind(rows, kind);
     double at_rate_s = 0;
-    for (const ProofTime& row : rows) {
+    for (const MachineTime& row : rows) {
         if (row.operation == kind && row.tool_mm3_per_s > 0) at_rate_s += row.removed_mm3 / row.tool_mm3_per_s;
     }
     if (roughing.line_s() <= 0 || at_rate_s <= 0) return {};
@@ -57,10 +40,10 @@ std::string roughing_words(const std::vector<ProofTime>& rows) {
 
 }  // namespace
 
-std::vector<ProofTime> merged(const std::vector<ProofTime>& rows) {
-    std::vector<ProofTime> sums;
-    for (const ProofTime& row : rows) {
-        const auto is_same = [&](const ProofTime& sum) {
+std::vector<MachineTime> merged(const std::vector<MachineTime>& rows) {
+    std::vector<MachineTime> sums;
+    for (const MachineTime& row : rows) {
+        const auto is_same = [&](const MachineTime& sum) {
             return sum.operation == row.operation && sum.tool == row.tool && sum.tool_mm3_per_s == row.tool_mm3_per_s;
         };
         const auto found = std::find_if(sums.begin(), sums.end(), is_same);
@@ -73,15 +56,15 @@ std::vector<ProofTime> merged(const std::vector<ProofTime>& rows) {
     return sums;
 }
 
-std::string time_line(const std::vector<ProofTime>& rows) {
+std::string time_line(const std::vector<MachineTime>& rows) {
     if (rows.empty()) return {};
-    const ProofTime all = sum_of(rows, {});
+    const MachineTime all = sum_of(rows);
     std::string line = "machine time " + hours(all.seconds()) + " h:";
     for (const char* kind : {"roughing", "finishing", "fine finishing", "drilling"}) {
-        line += std::string(" ") + kind + " " + hours(sum_of(rows, kind).seconds()) + ",";
+        line += std::string(" ") + kind + " " + hours(sum_of_kind(rows, kind).seconds()) + ",";
     }
     line.back() = ';';
-    if (const double unknown = sum_of(rows, "unknown").seconds(); unknown > 0)
+    if (const double unknown = sum_of_kind(rows, "unknown").seconds(); unknown > 0)
         line += " unknown " + hours(unknown) + ";";
     line += " cutting " + hours(all.cutting_s) + ", air " + hours(all.air_s) + ", links " + hours(all.link_s) +
             ", acceleration and stops " + hours(all.acceleration_s) + ", joint moves " + hours(all.joint_move_s) +
@@ -89,7 +72,7 @@ std::string time_line(const std::vector<ProofTime>& rows) {
     return line + roughing_words(rows) + ".";
 }
 
-void add_time(nlohmann::ordered_json& document, const std::vector<ProofTime>& rows) {
+void add_time(nlohmann::ordered_json& document, const std::vector<MachineTime>& rows) {
     json_values::put(json_values::added(document, "time"), rows);
 }
 

@@ -57,8 +57,8 @@ void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
     if (more > 0) text.push_back("  and " + counted(more, "more finding"));
 }
 
-std::vector<ProofTime> times_of(const VerifyAnswer& answer) {
-    std::vector<ProofTime> rows;
+std::vector<MachineTime> times_of(const VerifyAnswer& answer) {
+    std::vector<MachineTime> rows;
     for (const VerifiedJob& job : answer) rows.insert(rows.end(), job.verdict.time.begin(), job.verdict.time.end());
     return merged(rows);
 }

@@ -19,6 +19,7 @@
 #include "base/files/file.h"
 #include "base/sha256.h"
 #include "cam/cell/cell.h"
+#include "cam/cell/machine_time.h"
 #include "cam/setup/drill_orientation.h"
 
 namespace qchopper {
@@ -101,35 +102,10 @@ std::string describe(const ProofFinding& finding);
 
 constexpr std::size_t max_listed_findings = 100;
 
-// Where the machine time of one tool in one kind of operation goes, by the replay (sim/replay/time_account.h). Seconds,
-// mm, mm3.
-struct ProofTime {
-    std::string operation;      // "roughing", "finishing", "fine finishing", "drilling" or "unknown"
-    std::uint16_t tool = 0;     // CuttingTool::number
-    double tool_mm3_per_s = 0;  // CuttingTool::removal_mm3_per_s
-    double cutting_s = 0;       // at the feed of lines that remove foam
-    double air_s = 0;           // at the feed of lines within the tool's window that remove nothing
-    double link_s = 0;          // at the feed of faster lines
-    double acceleration_s = 0;  // what lines take beyond that: ramps, stops, slow corners, interpolation cycle
-    double joint_move_s = 0;
-    double tool_change_s = 0;
-    double cutting_mm = 0;
-    double air_mm = 0;
-    double link_mm = 0;
-    double removed_mm3 = 0;
-    std::uint64_t lines = 0;
-    std::uint64_t stops = 0;        // lines that end with a standing tip
-    std::uint64_t short_lines = 0;  // shorter than the way at their feed in a cycle of interpolation
-    std::uint64_t tool_changes = 0;
-    double line_s() const { return cutting_s + air_s + link_s + acceleration_s; }
-    double seconds() const { return line_s() + joint_move_s + tool_change_s; }
-    bool operator==(const ProofTime&) const = default;
-};
-
 // The result of a proof, as the verdict, the setup sheet and the reports show it.
 struct ProofResult {
     std::vector<ProofFigure> figures;  // of the replay; none where there was nothing to replay
-    std::vector<ProofTime> time;       // in the order of first use
+    std::vector<MachineTime> time;     // in the order of first use
     std::vector<ProofFinding> findings;
     std::size_t findings_left_out = 0;  // beyond those listed
     std::vector<std::string> notes;     // what is to be known and speaks not against it: as findings, one sentence each

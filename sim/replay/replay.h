@@ -48,7 +48,7 @@ struct ReplayReport {
     LeftoverFigures leftover;  // of the last part: the piece must be there after it
     MillingFigures milling;
     PathTime time;
-    TimeAccount account;
+    std::vector<MachineTime> account;
     // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
     std::vector<float> deviation;
     StockRecord left;  // after every part but the last

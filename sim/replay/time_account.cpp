@@ -8,7 +8,7 @@
 namespace qchopper {
 namespace {
 
-void add_line(TimeRow& row, const TipLine& line, const CuttingTool& tool, const LineTime& time, const LineCut& cut,
+void add_line(MachineTime& row, const TipLine& line, const CuttingTool& tool, const LineTime& time, const LineCut& cut,
               double cycle_s) {
     const double length = norm(line.to - line.from);
     const double at_feed = length / line.feed;
@@ -31,47 +31,25 @@ void add_line(TimeRow& row, const TipLine& line, const CuttingTool& tool, const 
 
 }  // namespace
 
-TimeRow TimeAccount::total() const {
-    TimeRow sum;
-    for (const TimeRow& row : rows) {
-        sum.cutting_s += row.cutting_s;
-        sum.air_s += row.air_s;
-        sum.link_s += row.link_s;
-        sum.acceleration_s += row.acceleration_s;
-        sum.joint_move_s += row.joint_move_s;
-        sum.tool_change_s += row.tool_change_s;
-        sum.cutting_mm += row.cutting_mm;
-        sum.air_mm += row.air_mm;
-        sum.link_mm += row.link_mm;
-        sum.removed_mm3 += row.removed_mm3;
-        sum.lines += row.lines;
-        sum.stops += row.stops;
-        sum.short_lines += row.short_lines;
-        sum.tool_changes += row.tool_changes;
-    }
-    return sum;
-}
-
-TimeAccount account_of(const ToolPath& path, const PathTime& time, const MillingFigures& milling,
-                       const CellMachine& machine) {
+std::vector<MachineTime> account_of(const ToolPath& path, const PathTime& time, const MillingFigures& milling,
+                                    const CellMachine& machine) {
     assert(time.lines.size() == path.lines.size() && milling.lines.size() == path.lines.size());
     const MotionLimits limits = motion_limits(machine);
-    TimeAccount account;
+    std::vector<MachineTime> account;
     for (const ToolUse& use : path.uses) {
-        TimeRow& row = account.rows.emplace_back();
+        MachineTime& row = account.emplace_back();
         row.operation = use.operation;
         row.tool = machine.tools[use.tool].number;
         row.tool_mm3_per_s = machine.tools[use.tool].removal_mm3_per_s;
     }
     for (std::size_t i = 0; i < path.lines.size(); ++i) {
         const TipLine& line = path.lines[i];
-        add_line(account.rows[line.use], line, machine.tools[line.tool], time.lines[i], milling.lines[i],
-                 limits.cycle_s);
+        add_line(account[line.use], line, machine.tools[line.tool], time.lines[i], milling.lines[i], limits.cycle_s);
     }
-    for (const JointSweep& sweep : path.sweeps) account.rows[sweep.use].joint_move_s += sweep.seconds;
+    for (const JointSweep& sweep : path.sweeps) account[sweep.use].joint_move_s += sweep.seconds;
     for (const std::uint32_t use : path.tool_changes) {
-        account.rows[use].tool_change_s += limits.tool_change_s;
-        ++account.rows[use].tool_changes;
+        account[use].tool_change_s += limits.tool_change_s;
+        ++account[use].tool_changes;
     }
     return account;
 }

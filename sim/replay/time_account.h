@@ -7,48 +7,19 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "cam/cell/cell.h"
+#include "cam/cell/machine_time.h"
 #include "sim/replay/mill_stock.h"
 #include "sim/replay/path_time.h"
 #include "sim/replay/tool_path.h"
 
 namespace qchopper {
 
-struct TimeRow {
-    std::string operation;      // ProgramChunk::operation
-    std::uint16_t tool = 0;     // CuttingTool::number
-    double tool_mm3_per_s = 0;  // CuttingTool::removal_mm3_per_s
-    double cutting_s = 0;       // length over feed of lines that remove foam and are not faster than the tool's window
-    double air_s = 0;           // of lines not faster than that, which remove nothing
-    double link_s = 0;          // of faster ones
-    double acceleration_s = 0;  // what lines take beyond length over feed: ramps, stops, slow corners, the cycle
-    double joint_move_s = 0;    // those that are gone, not those that are only checked
-    double tool_change_s = 0;
-    double cutting_mm = 0;
-    double air_mm = 0;
-    double link_mm = 0;
-    double removed_mm3 = 0;
-    std::size_t lines = 0;
-    std::size_t stops = 0;        // lines at whose end the tip stands
-    std::size_t short_lines = 0;  // shorter than feed times cycle
-    std::size_t tool_changes = 0;
-    double line_s() const { return cutting_s + air_s + link_s + acceleration_s; }
-    double seconds() const { return line_s() + joint_move_s + tool_change_s; }
-    double line_mm() const { return cutting_mm + air_mm + link_mm; }
-};
-
-struct TimeAccount {
-    std::vector<TimeRow> rows;  // one for each of ToolPath::uses
-    TimeRow total() const;      // without operation and tool
-};
-
-// Preconditions: `time` and `milling` are of the path, its tools are those of the machine. O(lines).
-TimeAccount account_of(const ToolPath& path, const PathTime& time, const MillingFigures& milling,
-                       const CellMachine& machine);
+// One row for each of ToolPath::uses. Preconditions: `time` and `milling` are of the path, its tools are those of the
+// machine. O(lines).
+std::vector<MachineTime> account_of(const ToolPath& path, const PathTime& time, const MillingFigures& milling,
+                                    const CellMachine& machine);
 
 }  // namespace qchopper

@@ -64,7 +64,7 @@ std::string time_of(const ProofResult& proof) {
     Rows rows{{word("time, min"), right("tool"), right("cutting"), right("air"), right("links"),
                right("acceleration, stops"), right("joint moves"), right("tool changes"), right("all"), right("litres"),
                right("cm3/s"), right("tool may")}};
-    for (const ProofTime& time : proof.time) {
+    for (const MachineTime& time : proof.time) {
         const double rate = time.line_s() > 0 ? time.removed_mm3 / time.line_s() : 0;
         rows.push_back({word(time.operation), right(std::to_string(time.tool)), minutes(time.cutting_s),
                         minutes(time.air_s), minutes(time.link_s), minutes(time.acceleration_s),

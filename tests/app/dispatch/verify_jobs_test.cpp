@@ -97,7 +97,7 @@ TEST(VerifyJobs, TheAccountOfTheTimeAddsUpAndKnowsTheOperations) {
     EXPECT_EQ(verdict.time.front().operation, "roughing");
     double seconds = 0;
     double mm = 0;
-    for (const ProofTime& time : verdict.time) {
+    for (const MachineTime& time : verdict.time) {
         EXPECT_NE(time.operation, "unknown");
         EXPECT_GT(time.lines, 0U);
         seconds += time.seconds();

@@ -39,8 +39,8 @@ TEST(ProgramReport, MovesThatAreLeftOutAreSaidOncePerPieceAndStandInEveryDocumen
     EXPECT_EQ(lines(answer)[2], "  Note: " + piece.verdicts[0].notes[0] + ".");
 }
 
-ProofTime row(const std::string& operation, std::uint16_t tool, double cutting_s, double removed_mm3) {
-    ProofTime time;
+MachineTime row(const std::string& operation, std::uint16_t tool, double cutting_s, double removed_mm3) {
+    MachineTime time;
     time.operation = operation;
     time.tool = tool;
     time.tool_mm3_per_s = 1000.0 * tool;
@@ -53,13 +53,13 @@ ProofTime row(const std::string& operation, std::uint16_t tool, double cutting_s
 
 TEST(TimeReport, SaysWhereTheHoursOfAllJobsGo) {
     EXPECT_EQ(time_line({}), "");
-    ProofTime finishing = row("fine finishing", 3, 7200, 1e3);
+    MachineTime finishing = row("fine finishing", 3, 7200, 1e3);
     finishing.joint_move_s = 360;
     finishing.tool_change_s = 720;
     finishing.link_s = 36;
     finishing.air_s = 3600;
     // 9 litres at a rate of 24 cm3/s and 3 at 6 take 875 s.
-    const std::vector<ProofTime> rows{row("roughing", 24, 1440, 9e6), finishing, row("roughing", 6, 720, 3e6)};
+    const std::vector<MachineTime> rows{row("roughing", 24, 1440, 9e6), finishing, row("roughing", 6, 720, 3e6)};
     EXPECT_EQ(
         time_line(rows),
         "machine time 4.56 h: roughing 0.75, finishing 0.00, fine finishing 3.81, drilling 0.00; cutting 2.60, "
@@ -71,7 +71,7 @@ TEST(TimeReport, SaysWhereTheHoursOfAllJobsGo) {
 }
 
 TEST(TimeReport, RowsOfOneOperationAndToolAreAdded) {
-    const std::vector<ProofTime> sums = merged(
+    const std::vector<MachineTime> sums = merged(
         {row("roughing", 2, 10, 7), row("finishing", 2, 20, 1), row("roughing", 3, 40, 1), row("roughing", 2, 5, 2)});
     ASSERT_EQ(sums.size(), 3U);
     EXPECT_EQ(sums[0].operation, "roughing");

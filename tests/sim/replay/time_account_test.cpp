@@ -52,7 +52,7 @@ CellMachine some_machine(double cycle_s) {
     return machine;
 }
 
-TimeAccount account(const ToolPath& path, const CellMachine& machine, std::vector<LineCut> cuts = {}) {
+std::vector<MachineTime> account(const ToolPath& path, const CellMachine& machine, std::vector<LineCut> cuts = {}) {
     MillingFigures milling;
     milling.lines = std::move(cuts);
     milling.lines.resize(path.lines.size());
@@ -61,9 +61,9 @@ TimeAccount account(const ToolPath& path, const CellMachine& machine, std::vecto
 
 TEST(TimeAccount, ALineFromRestToRestTakesItsRampsBeyondItsFeed) {
     const ToolPath path = path_through({{0, 0, 0}, {100, 0, 0}}, 0);
-    const TimeAccount made = account(path, some_machine(0), {{true, 500}});
-    ASSERT_EQ(made.rows.size(), 1U);
-    const TimeRow& row = made.rows[0];
+    const std::vector<MachineTime> made = account(path, some_machine(0), {{true, 500}});
+    ASSERT_EQ(made.size(), 1U);
+    const MachineTime& row = made[0];
     EXPECT_EQ(row.operation, "finishing");
     EXPECT_EQ(row.tool, 7);
     EXPECT_EQ(row.tool_mm3_per_s, 24'000);
@@ -79,11 +79,11 @@ TEST(TimeAccount, ALineFromRestToRestTakesItsRampsBeyondItsFeed) {
 
 TEST(TimeAccount, ASquareStopsAtEachExactCorner) {
     const std::vector<Vec3> square{{0, 0, 0}, {50, 0, 0}, {50, 50, 0}, {0, 50, 0}, {0, 0, 0}};
-    const TimeRow exact = account(path_through(square, 0), some_machine(cycle)).total();
+    const MachineTime exact = sum_of(account(path_through(square, 0), some_machine(cycle)));
     EXPECT_NEAR(exact.air_s, 4 * 0.5, 1e-12);
     EXPECT_NEAR(exact.acceleration_s, 4 * 0.1, 1e-12);
     EXPECT_EQ(exact.stops, 4U);
-    const TimeRow rounded = account(path_through(square, 2), some_machine(cycle)).total();
+    const MachineTime rounded = sum_of(account(path_through(square, 2), some_machine(cycle)));
     EXPECT_EQ(rounded.stops, 1U);
     // The parabola with sides of 2 mm has a radius of 2 * (1/2) / sqrt(1/2) in its middle.
     const double corner = std::sqrt(1000 * 2 * std::sqrt(0.5));
@@ -95,19 +95,19 @@ TEST(TimeAccount, ALineTakesACycleAtLeast) {
     std::vector<Vec3> points;
     for (int i = 0; i <= 100; ++i) points.push_back({0.5 * i, 0, 0});
     const ToolPath path = path_through(points, 0.2, 100, 20'000);
-    const TimeRow row = account(path, some_machine(cycle)).total();
+    const MachineTime row = sum_of(account(path, some_machine(cycle)));
     EXPECT_EQ(row.short_lines, 100U);
     EXPECT_EQ(row.stops, 1U);
     EXPECT_NEAR(row.seconds(), 100 * cycle, 1e-12);
-    EXPECT_EQ(account(path, some_machine(0.005)).total().short_lines, 0U) << "0.5 mm are 5 ms at 100 mm/s";
-    EXPECT_LT(account(path, some_machine(0)).total().seconds(), 0.51);
+    EXPECT_EQ(sum_of(account(path, some_machine(0.005))).short_lines, 0U) << "0.5 mm are 5 ms at 100 mm/s";
+    EXPECT_LT(sum_of(account(path, some_machine(0))).seconds(), 0.51);
 }
 
 TEST(TimeAccount, LinesFasterThanTheWindowAreLinks) {
     ToolPath path = path_through({{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}}, 0);
     path.lines[1].feed = 120.1;  // within the tolerance of the window
     path.lines[2].feed = 200;
-    const TimeRow row = account(path, some_machine(cycle), {{true, 10}, {false, 0}, {false, 0}}).total();
+    const MachineTime row = sum_of(account(path, some_machine(cycle), {{true, 10}, {false, 0}, {false, 0}}));
     EXPECT_EQ(row.cutting_mm, 100);
     EXPECT_EQ(row.air_mm, 100);
     EXPECT_EQ(row.link_mm, 100);
@@ -126,14 +126,14 @@ TEST(TimeAccount, JointMovesAndToolChangesCountForTheirOperation) {
     path.tool_changes = {0, 1, 1};
     CellMachine machine = some_machine(cycle);
     machine.program.tool_change_s = 45;
-    const TimeAccount made = account(path, machine);
-    ASSERT_EQ(made.rows.size(), 2U);
-    EXPECT_EQ(made.rows[1].operation, "drilling");
-    EXPECT_EQ(made.rows[1].joint_move_s, 3);
-    EXPECT_EQ(made.rows[1].tool_change_s, 90);
-    EXPECT_EQ(made.rows[1].tool_changes, 2U);
-    EXPECT_NEAR(made.total().seconds(), 1.1 + 6 + 3 * 45, 1e-12);
-    EXPECT_NEAR(time_of(path, motion_limits(machine)).seconds, made.total().seconds(), 1e-12);
+    const std::vector<MachineTime> made = account(path, machine);
+    ASSERT_EQ(made.size(), 2U);
+    EXPECT_EQ(made[1].operation, "drilling");
+    EXPECT_EQ(made[1].joint_move_s, 3);
+    EXPECT_EQ(made[1].tool_change_s, 90);
+    EXPECT_EQ(made[1].tool_changes, 2U);
+    EXPECT_NEAR(sum_of(made).seconds(), 1.1 + 6 + 3 * 45, 1e-12);
+    EXPECT_NEAR(time_of(path, motion_limits(machine)).seconds, sum_of(made).seconds(), 1e-12);
 }
 
 TEST(PathTime, AxesBoundAccelerationAndCorners) {
@@ -180,20 +180,20 @@ TEST_P(TimeAccountOf, AProgramAddsUp) {
     options.cell = 1;
     const ReplayReport report = replay(read_back(job, job.files()), job.scene(), options);
     std::vector<std::string> rows;
-    for (const TimeRow& row : report.account.rows) rows.push_back(row.operation + " " + std::to_string(row.tool));
+    for (const MachineTime& row : report.account) rows.push_back(row.operation + " " + std::to_string(row.tool));
     EXPECT_EQ(rows, (std::vector<std::string>{"roughing 2", "unknown 2", "fine finishing 3", "roughing 3"}));
-    const TimeRow sum = report.account.total();
+    const MachineTime sum = sum_of(report.account);
     EXPECT_NEAR(sum.seconds(), report.time.seconds, 1e-6);
     EXPECT_NEAR(sum.line_mm(), report.time.line_mm, 1e-6);
     EXPECT_NEAR(sum.cutting_mm + sum.air_mm, report.milling.feed_mm, 1e-6);
     EXPECT_NEAR(sum.air_mm, report.milling.air_mm, 1e-6);
     EXPECT_NEAR(sum.removed_mm3, report.milling.removed_mm3, 1e-6 * report.milling.removed_mm3);
     EXPECT_EQ(sum.tool_changes, 4U);
-    EXPECT_GT(report.account.rows[0].cutting_s, 1);
-    EXPECT_GT(report.account.rows[0].removed_mm3, 1e4);
-    EXPECT_EQ(report.account.rows[2].cutting_mm, 0) << "it is in the air";
-    EXPECT_EQ(report.account.rows[2].removed_mm3, 0);
-    EXPECT_GT(report.account.rows[2].short_lines, 0U);
+    EXPECT_GT(report.account[0].cutting_s, 1);
+    EXPECT_GT(report.account[0].removed_mm3, 1e4);
+    EXPECT_EQ(report.account[2].cutting_mm, 0) << "it is in the air";
+    EXPECT_EQ(report.account[2].removed_mm3, 0);
+    EXPECT_GT(report.account[2].short_lines, 0U);
     EXPECT_EQ(sum.lines, report.time.lines.size());
 }
 
@@ -273,12 +273,12 @@ void expect_within(double value, double reference, const std::string& what) {
 
 TEST_P(TimeAccountOf, AgreesWithAScriptThatReadsTheText) {
     const BoxJob job = long_job(GetParam());
-    const TimeAccount made = account(walked(job), *job.cell.machine);
+    const std::vector<MachineTime> made = account(walked(job), *job.cell.machine);
     const std::vector<ReferenceRow> expected = reference_rows(job, GetParam());
-    ASSERT_EQ(made.rows.size(), expected.size());
+    ASSERT_EQ(made.size(), expected.size());
     double joint_move_s = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        const TimeRow& row = made.rows[i];
+        const MachineTime& row = made[i];
         const ReferenceRow& reference = expected[i];
         const std::string name = row.operation + " " + std::to_string(row.tool) + ": ";
         EXPECT_EQ(row.operation, reference.operation);
@@ -299,7 +299,7 @@ TEST_P(TimeAccountOf, AgreesWithAScriptThatReadsTheText) {
         EXPECT_EQ(row.short_lines, reference.short_lines);
     }
     // The script knows no joints at the end of a line.
-    EXPECT_NEAR(made.total().joint_move_s, joint_move_s, 0.1 * joint_move_s);
+    EXPECT_NEAR(sum_of(made).joint_move_s, joint_move_s, 0.1 * joint_move_s);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, TimeAccountOf, testing::Values("kr60-ha", "kr120-r2500-pro-rotary"),

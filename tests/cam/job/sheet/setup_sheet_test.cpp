@@ -166,7 +166,7 @@ TEST(SheetDetails, SayWhereTheMachineTimeGoes) {
     JobInput input = tilting_job();
     input.program = ProgramInput{};
     EXPECT_EQ(row(sheet_details(input), "fine finishing"), "no row fine finishing") << "nothing was replayed";
-    ProofTime time;
+    MachineTime time;
     time.operation = "fine finishing";
     time.tool = 7;
     time.tool_mm3_per_s = 24'000;
