@@ -93,23 +93,30 @@ std::vector<Tap> taps_of(const Cutter& cutter, double cell) {
     return taps;
 }
 
-// For each cell the largest of sign * (height - tap) over the taps, times sign: sign 1 is dilation, -1 erosion.
-std::vector<float> morph(const SurfaceMap& map, const std::vector<Tap>& taps, float sign) {
-    std::vector<float> result(map.height.size(), sign > 0 ? nothing : -nothing);
+struct Dilation {
+    static constexpr float none = nothing;
+    static float joined(float best, float height, float tap) { return std::max(best, height - tap); }
+};
+
+struct Erosion {
+    static constexpr float none = -nothing;
+    static float joined(float best, float height, float tap) { return std::min(best, height + tap); }
+};
+
+// For each cell of a map what joins the heights about it with the taps. The inner loop is one that compilers vectorise.
+template <class Morphology>
+std::vector<float> morph(const SurfaceMap& map, const std::vector<Tap>& taps) {
+    std::vector<float> result(map.height.size(), Morphology::none);
     parallel_for(0, static_cast<std::size_t>(map.rows), [&](std::size_t row) {
         const auto j = static_cast<std::int32_t>(row);
-        float* to = &result[row * static_cast<std::size_t>(map.columns)];
         for (const Tap& tap : taps) {
             if (j + tap.dy < 0 || j + tap.dy >= map.rows) continue;
-            const float* from = &map.height[static_cast<std::size_t>(j + tap.dy) * map.columns];
             const std::int32_t begin = std::max(0, -tap.dx);
             const std::int32_t end = std::min(map.columns, map.columns - tap.dx);
-            const float add = -sign * tap.height;
-            for (std::int32_t i = begin; i < end; ++i) {
-                const float value = from[i + tap.dx] + add;
-                if (sign > 0) to[i] = value > to[i] ? value : to[i];
-                if (sign < 0) to[i] = value < to[i] ? value : to[i];
-            }
+            float* to = result.data() + row * static_cast<std::size_t>(map.columns);
+            const float* from = map.height.data() + static_cast<std::ptrdiff_t>(j + tap.dy) * map.columns + tap.dx;
+            const float height = tap.height;
+            for (std::int32_t i = begin; i < end; ++i) to[i] = Morphology::joined(to[i], from[i], height);
         }
     });
     return result;
@@ -166,7 +173,7 @@ void clear_holder(const ReplayScene& scene, std::size_t orientation, const Cutti
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;
         SurfaceMap coarse = target_surface(scene, orientation, holder_cell, radius);
-        coarse.height = morph(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell), 1);
+        coarse.height = morph<Dilation>(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell));
         for (std::int32_t j = 0; j < tips.rows; ++j) {
             for (std::int32_t i = 0; i < tips.columns; ++i) {
                 float& tip = tips.height[static_cast<std::size_t>(j) * tips.columns + i];
@@ -201,10 +208,10 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const C
     const Cutter cutter = cutter_of(tool);
     SurfaceMap map = target_surface(scene, orientation, cell, 2 * cutter.radius + 2 * cell);
     const std::vector<Tap> taps = taps_of(cutter, cell);
-    map.height = morph(map, taps, 1);
+    map.height = morph<Dilation>(map, taps);
     context.check_cancelled();
     clear_holder(scene, orientation, tool, map);
-    map.height = morph(map, taps, -1);
+    map.height = morph<Erosion>(map, taps);
     return map;
 }
 
