@@ -80,11 +80,6 @@ ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMes
     return scene;
 }
 
-double feed_of(const Operation& operation, MoveKind kind) {
-    if (kind == MoveKind::approach) return operation.approach_feed;
-    return kind == MoveKind::cut ? operation.feed : operation.link_feed;
-}
-
 // Of one operation. A file of the program stands for an operation, a line for a move.
 ToolPath lines_of(const Toolpath& path, std::uint32_t k, double acceleration) {
     ToolPath lines;
@@ -102,7 +97,7 @@ ToolPath lines_of(const Toolpath& path, std::uint32_t k, double acceleration) {
                 line.chunk = k;
                 line.tool = static_cast<std::uint32_t>(operation.tool);
                 line.orientation = static_cast<std::uint32_t>(operation.orientation);
-                line.feed = move.feed > 0 ? move.feed : feed_of(operation, move.kind);
+                line.feed = feed_of(operation, move);
                 line.acceleration = acceleration;
                 line.rounding = move.rounding;
                 line.follows_line = i > 0;

@@ -61,11 +61,6 @@ struct Totals {
     std::size_t bytes = 0;  // of the lines of a KRL program, which state the position alone
 };
 
-double feed_of(const Operation& operation, MoveKind kind) {
-    if (kind == MoveKind::cut) return operation.feed;
-    return kind == MoveKind::approach ? operation.approach_feed : operation.link_feed;
-}
-
 // Lines of one run as cam/post writes them: speeds where they change, and the positions.
 std::size_t krl_bytes(const Operation& operation, const PathRun& run) {
     constexpr std::size_t around = std::string_view("LIN {}\r\n").size();

@@ -27,9 +27,10 @@ struct PieceHeightFieldOptions {
 // The highest point of the piece or of the floor over the whole of each cell, not only over its middle. It covers the
 // projection of the block, and every cell has a height; along a direction on whose side the floor is steeper than the
 // block is high, the floor ends at the block's highest and lowest point. Seen from above, its rows lie along the sides
-// of the block. Preconditions: the mesh is that of the piece, direction is one of setup.access.orientations. Throws
-// InputError (use) if a value is not finite, the cell not above zero or the border below it, and as height_field()
-// does. O(triangles + cells covered).
+// of the block. Maps along one direction with the same border have the same frame, whatever their cells
+// (tests/cam/stock/cl_surface_test.cpp). Preconditions: the mesh is that of the piece, direction is one of
+// setup.access.orientations. Throws InputError (use) if a value is not finite, the cell not above zero or the border
+// below it, and as height_field() does. O(triangles + cells covered).
 HeightField piece_height_field(const Setup& setup, const TriangleMesh& mesh, std::size_t orientation,
                                const PieceHeightFieldOptions& options);
 

@@ -23,7 +23,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t triangles_at_once = 4096;
-constexpr double beside_cells = 0.3;
+constexpr double beside_line = 0.075;  // mm
 
 // The least float that is not below a height; never -0, which would make the result depend on the order.
 float rounded_up(double height) {
@@ -195,8 +195,9 @@ HeightField piece_height_field(const Setup& setup, const TriangleMesh& mesh, std
                               tool_axis};
     const Box box = box_in_map(map.piece_in_field, setup, mesh);
     // Sides of the block, and walls that lie whole cells from them, are neither on lines between cells nor in the
-    // middle, where rounding decides whether a cell has them.
-    const double beside = options.border + beside_cells * map.cell;
+    // middle, where rounding decides whether a cell has them. It is the same length for all cells, so that maps with
+    // the same border share their frame.
+    const double beside = options.border + beside_line;
     const Vec3 size = box.size() + Vec3{2 * beside, 2 * beside, 0};
     if ((size.x / map.cell + 1) * (size.y / map.cell + 1) > static_cast<double>(max_field_cells)) {
         throw InputError(InputFault::use, "a height map of the block would have too many cells", "use larger cells");

@@ -59,6 +59,7 @@ constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;     // mm, between points that are asked what is left over them
 constexpr double thinner = 0.75;          // of the diameter of the tool before: it roughs where that did not come
 constexpr double depth_per_diameter = 3;  // of a cut at most
+constexpr double worthwhile_rate = 0.3;   // of a tool's, removed by roughing what others left
 constexpr double skin_beyond = 4.2;       // mm beyond the allowance: a narrower rim of foam is left to finishing
 
 // Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
@@ -181,8 +182,17 @@ class ToolpathMaker {
             options.skin_height = std::max(operation.stepdown, is_whole ? 0 : left);
             options.skin_width = settings_.allowance + skin_beyond;
         }
-        std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
-        add(std::move(operation), space, std::move(runs));
+        RoughingRuns found = rough(space, tool, body_of(tool_index), operation, options, context_);
+        if (is_first || is_whole || is_worthwhile(found, operation)) {
+            add(std::move(operation), space, std::move(found.runs));
+        }
+    }
+
+    // Finishing cuts a little foam in less time than a roughing that goes a long way for it.
+    bool is_worthwhile(const RoughingRuns& found, const Operation& operation) const {
+        double seconds = 0;
+        for (const PathRun& run : found.runs) seconds += seconds_at_feed(run, operation);
+        return found.removed_mm3 >= worthwhile_rate * machine_.tools[operation.tool].removal_mm3_per_s * seconds;
     }
 
     // From all directions; then surface that stays blocked for one is left to the others.
@@ -314,12 +324,10 @@ class ToolpathMaker {
         return length;
     }
 
-    // Foam that was left to finishing keeps holders and flutes from its own passes: it is roughed after all.
+    // Foam that was left to finishing keeps holders and flutes from its own passes: it is roughed after all, by the tool
+    // in the spindle.
     void clear_for(std::size_t tool) {
-        for (std::size_t d = 0; d < setup_.access.orientations.size(); ++d) {
-            rough_along(d, tools_.roughing, true);
-            if (tool != tools_.roughing) rough_along(d, tool, true);
-        }
+        for (std::size_t d = 0; d < setup_.access.orientations.size(); ++d) rough_along(d, tool, true);
         retry(tool);
     }
 

@@ -123,8 +123,8 @@ class RoughingLevels {
 
 }  // namespace
 
-std::vector<PathRun> rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body,
-                           const Operation& operation, const RoughingOptions& options, const Context& context) {
+RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body, const Operation& operation,
+                   const RoughingOptions& options, const Context& context) {
     const RoughingLevels levels(space, tool, operation.stepdown, options);
     const std::vector<double> heights = levels.heights();
     double highest = -std::numeric_limits<double>::infinity();  // foam only gets lower
@@ -142,7 +142,9 @@ std::vector<PathRun> rough(MillingSpace& space, const CuttingTool& tool, const T
         }
         runs.add(roughing_passes(levels.region(level), level, operation.stepover));
     }
-    return runs.finish();
+    RoughingRuns result{runs.finish(), 0};
+    result.removed_mm3 = runs.removed_mm3();
+    return result;
 }
 
 }  // namespace qchopper

@@ -88,19 +88,15 @@ Vec3 on_parabola(Vec3 from, Vec3 at, Vec3 to, double rounding, double t) {
 void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell, const CuttingTool& tool,
                  const Operation& operation) {
     assert(removed_mm3.size() == run.moves.size());
-    const auto own_feed = [&](const PathMove& move) {
-        if (!is_cutting(move)) return operation.link_feed;
-        return move.kind == MoveKind::cut ? operation.feed : operation.approach_feed;
-    };
     const auto least_feed = [&](const PathMove& move) {
         if (!is_cutting(move)) return operation.link_feed;
-        return std::min(own_feed(move), (move.kind == MoveKind::cut ? 1 : 0.5) * tool.feed_min_mm_per_s);
+        return std::min(feed_of(operation, move.kind), (move.kind == MoveKind::cut ? 1 : 0.5) * tool.feed_min_mm_per_s);
     };
     DrivenMoves moves{{}, removed_mm3, {}, {}};
     Vec3 at = run.start;
     for (const PathMove& move : run.moves) {
         moves.length.push_back(norm(move.tip - at));
-        moves.feed.push_back(own_feed(move));
+        moves.feed.push_back(feed_of(operation, move.kind));
         moves.least.push_back(least_feed(move));
         at = move.tip;
     }
@@ -111,7 +107,7 @@ void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell,
         PathMove& move = run.moves[i];
         if (!is_cutting(move)) continue;
         const bool is_cut = move.kind == MoveKind::cut;
-        const double own = own_feed(move);
+        const double own = feed_of(operation, move.kind);
         const double allowed = std::min(own, moves.feed[i]);
         double& feed = current[is_cut ? 0 : 1];
         if (feed > allowed || feed < kept_feed * allowed || allowed == own) {
@@ -120,6 +116,16 @@ void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell,
         }
         move.feed = feed < own ? feed : 0;
     }
+}
+
+double seconds_at_feed(const PathRun& run, const Operation& operation) {
+    double seconds = 0;
+    Vec3 at = run.start;
+    for (const PathMove& move : run.moves) {
+        seconds += norm(move.tip - at) / feed_of(operation, move);
+        at = move.tip;
+    }
+    return seconds;
 }
 
 void settle_rounding(PathRun& run, double largest) {

@@ -33,6 +33,9 @@ Vec3 on_parabola(Vec3 from, Vec3 at, Vec3 to, double rounding, double t);
 void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell, const CuttingTool& tool,
                  const Operation& operation);
 
+// Of all moves, without what acceleration takes. O(moves).
+double seconds_at_feed(const PathRun& run, const Operation& operation);
+
 // Lowers distances of rounding to a few values, and keeps one that holds as long as it is at least half of what the
 // corner allows: each change is a line of the program. Where more than half a move is allowed, any value will do.
 // O(moves).

@@ -70,6 +70,16 @@ struct Operation {
     bool operator==(const Operation&) const = default;
 };
 
+// Of a kind of move, in mm/s.
+inline double feed_of(const Operation& operation, MoveKind kind) {
+    if (kind == MoveKind::approach) return operation.approach_feed;
+    return kind == MoveKind::cut ? operation.feed : operation.link_feed;
+}
+// Of one move, in mm/s.
+inline double feed_of(const Operation& operation, const PathMove& move) {
+    return move.feed > 0 ? move.feed : feed_of(operation, move.kind);
+}
+
 // A ball-ended tool that the toolpath does not use along a direction, and why.
 struct UnusedTool {
     std::optional<std::size_t> tool;         // index in CellMachine::tools; nothing: no tool of the cell

@@ -156,6 +156,7 @@ void ToolpathLinker::move(Vec3 tip, MoveKind kind, Corner corner) {
     if (kind == MoveKind::cut || kind == MoveKind::approach) {
         sweep_.move(space_->stock, space_->removed, at_, tip);
         removed = centre_sweep_.move(space_->centre_stock, space_->centre_removed, at_, tip);
+        all_removed_mm3_ += removed;
     }
     if (is_move) {
         run_.moves.push_back({tip, kind});

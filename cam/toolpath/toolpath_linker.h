@@ -68,6 +68,9 @@ class ToolpathLinker {
     // The runs in map coordinates, at most about 300 moves each where a link goes high anyway, never more than 1000.
     std::vector<PathRun> finish();
 
+    // By all moves so far.
+    double removed_mm3() const { return all_removed_mm3_; }
+
  private:
     struct Way;
     // What is known of the corner at the end of a move: nothing; it lies within a pass; the pass has it rounded; all
@@ -105,6 +108,7 @@ class ToolpathLinker {
     Corner corner_ = Corner::joint;  // at its end
     PathRun run_;
     std::vector<double> removed_mm3_;  // by each of its moves
+    double all_removed_mm3_ = 0;
     std::vector<PathRun> runs_;
 };
 

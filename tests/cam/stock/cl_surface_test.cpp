@@ -56,6 +56,14 @@ TEST(PieceHeightField, NoPointOfThePieceIsAboveItsCell) {
     }
 }
 
+TEST(PieceHeightField, MapsOfDifferentCellsShareTheirFrame) {
+    const TriangleMesh mesh = bumpy(40, 23, 30, 5);
+    const auto setup = setup_of(mesh, 5, 40);
+    const HeightField fine = piece_height_field(setup, mesh, 1, {0.25, -3, 2});
+    const HeightField coarse = piece_height_field(setup, mesh, 1, {5.0 / 3, 0, 2});
+    EXPECT_EQ(fine.piece_in_field, coarse.piece_in_field);
+}
+
 TEST(PieceHeightField, ACellIsAsHighAsTheHighestPointOverIt) {
     // A ramp: the highest point over a cell is at its far side; a needle thinner than a cell is found all the same.
     TriangleMesh ramp = shapes::box({0, 0, 0}, {20, 20, 10});

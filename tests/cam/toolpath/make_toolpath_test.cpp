@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -112,6 +113,35 @@ TEST(MakeToolpath, EachBallEndedToolIsUsedAlongADirectionOrListedWithTheReason) 
     ASSERT_NE(left_out, path.unused.end());
     EXPECT_EQ(left_out->because.substr(0, 14), "tool 2 roughs,");
     EXPECT_NE(left_out->because.find("or add less than 0.3 % of the surface"), std::string::npos);
+}
+
+// The cells of the foam follow from the finest tool, those of the piece do not.
+TEST(MakeToolpath, ABallOfAnySizeTouchesABoxOnAllItsSides) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 30});
+    const auto setup = setup_of(mesh, 18);
+    const Cell cell = ready_cell();
+    for (const std::size_t tool : {0, 3}) {  // the balls of 20 and 6 mm
+        ToolpathSettings settings;
+        settings.finishing_tools = {tool};
+        const double radius = 0.5 * cell.machine->tools[tool].diameter;
+        std::array<double, 4> nearest;  // of the centre of the ball to each side, where it passes beside the box
+        nearest.fill(std::numeric_limits<double>::infinity());
+        for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
+            if (operation.kind == OperationKind::roughing) continue;
+            for (const PathRun& run : operation.runs) {
+                for (const PathMove& move : run.moves) {
+                    const Vec3 centre = move.tip + Vec3{0, 0, radius};
+                    if (centre.z > 30) continue;
+                    const std::array<double, 4> away{centre.x - 30, -30 - centre.x, centre.y - 20, -20 - centre.y};
+                    const bool is_beside_one = std::ranges::count_if(away, [](double a) { return a > 0; }) == 1;
+                    for (std::size_t k = 0; k < away.size() && is_beside_one; ++k) {
+                        if (away[k] > 0) nearest[k] = std::min(nearest[k], away[k]);
+                    }
+                }
+            }
+        }
+        for (const double side : nearest) EXPECT_NEAR(side, radius, 0.2) << "radius " << radius;
+    }
 }
 
 TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
