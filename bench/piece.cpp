@@ -231,6 +231,11 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
         std::fflush(stdout);
         before = now;
     };
+    double to_mill = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!setup.is_unmilled(cap_of(mesh, t))) to_mill += norm(area_vector(mesh, t));
+    }
+    std::printf("  surface to mill %.0f cm2\n", 0.01 * to_mill);
     const Toolpath path = timed_toolpath(setup, mesh, cell);
     lap("toolpath");
     print_operations(path, cell);

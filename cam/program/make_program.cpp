@@ -9,7 +9,8 @@
 // stands in the manifest, on the sheet and in the verdict. What it means for the piece is not judged here: the proof
 // replays the program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
 //
-// Cost: a later link over foam that now stays, or more foam for finishing, makes the proof refuse the job. A reserve
+// Links that come near to foam that now stays go at the least feed (left_out_foam.h). Cost: more foam for finishing may
+// make the proof refuse the job. A reserve
 // in the work envelope would refuse placements that are good but for a corner; raising the CL surface where the arm
 // does not hold it would need the arm, and an answer for every cell, while the toolpath is made. Test:
 // tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoHoldCarries.
@@ -31,6 +32,7 @@
 #include "base/shared_progress.h"
 #include "cam/cell/reach_map.h"
 #include "cam/program/check_toolpath.h"
+#include "cam/program/left_out_foam.h"
 #include "cam/program/posture_search.h"
 #include "cam/program/ptp_planner.h"
 #include "cam/program/sampled_path.h"
@@ -115,12 +117,15 @@ class OperationHolder {
         : search_(setup, reachability, cell, operation),
           operation_(operation),
           context_(context),
+          tool_radius_(0.5 * cell.machine->tools[operation.tool].diameter),
           max_lines_(operation_lines(cell)),
           max_lines_of_run_(max_lines(cell)),
           runs_(split_long_runs(operation.runs, max_lines_of_run_, search_.tool_axis(), operation.retract)) {}
 
-    // What operations() left out: the length of cuts, and why no configuration takes the first of them.
+    // What operations() left out: the length of cuts, what holds the foam that they would have removed, and why no
+    // configuration takes the first of them.
     double left_out() const { return left_out_; }
+    const std::vector<Capsule>& left_out_foam() const { return left_out_foam_; }
     const std::string& left_out_because() const { return left_out_because_; }
 
     std::vector<PlannedOperation> operations(const std::string& where) {
@@ -196,6 +201,7 @@ class OperationHolder {
         if (left_out_ + length > max_left_out * cut_length(operation_.runs)) return false;
         if (left_out_ == 0) left_out_because_ = refusal_;
         left_out_ += length;
+        for (std::size_t i = first; i < end; ++i) add_left_out(i > 0 ? run.moves[i - 1].tip : run.start, run.moves[i]);
         std::vector<PathRun> kept;
         if (has_cut(run, first)) {
             PathRun head = run;
@@ -206,6 +212,13 @@ class OperationHolder {
         const auto place = runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(at));
         runs_.insert(place, kept.begin(), kept.end());
         return true;
+    }
+
+    void add_left_out(Vec3 from, const PathMove& move) {
+        if (move.kind != MoveKind::cut && move.kind != MoveKind::approach) return;
+        const std::vector<Capsule> bodies =
+            bodies_of_cut(from, move.tip, search_.tool_axis(), tool_radius_, operation_.retract);
+        left_out_foam_.insert(left_out_foam_.end(), bodies.begin(), bodies.end());
     }
 
     // Whether an arm posture takes a run up to a part of its first cut.
@@ -247,11 +260,13 @@ class OperationHolder {
     PostureSearch search_;
     const Operation& operation_;
     const Context& context_;
+    double tool_radius_ = 0;
     std::size_t max_lines_ = 0;  // of an operation
     std::size_t max_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
     std::string refusal_;  // of the last run that no arm posture reached
     double left_out_ = 0;
+    std::vector<Capsule> left_out_foam_;
     std::string left_out_because_;
 };
 
@@ -268,6 +283,7 @@ PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setu
     std::vector<std::vector<PlannedOperation>> by_operation(count);
     std::vector<std::exception_ptr> refused(count);
     std::vector<std::pair<double, std::string>> left_out(count);
+    std::vector<std::vector<Capsule>> foam(count);
     SharedProgress progress(context, "operations held", count);
     parallel_for(0, count, [&](std::size_t i) {
         const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
@@ -275,17 +291,27 @@ PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setu
             OperationHolder holder(setup, reachability, cell, toolpath.operations[i], context);
             by_operation[i] = holder.operations(where);
             left_out[i] = {holder.left_out(), where + ": " + holder.left_out_because()};
+            foam[i] = holder.left_out_foam();
         } catch (const ProgramRefused&) {
             refused[i] = std::current_exception();
         }
         progress.add(1);
     });
     PlannedOperations all_planned;
+    std::vector<Capsule> standing;  // of this operation and those before it
     for (std::size_t i = 0; i < count; ++i) {
         if (refused[i]) std::rethrow_exception(refused[i]);
+        standing.insert(standing.end(), foam[i].begin(), foam[i].end());
+        const Operation& operation = toolpath.operations[i];
         for (PlannedOperation& planned : by_operation[i]) {
+            const std::size_t slowed =
+                slow_links_near(standing, cell.machine->tools[operation.tool], operation.retract, planned.operation);
+            planned.operation.lowered_moves += slowed;
+            if (slowed > 0) {
+                for (ProgramRun& run : planned.operation.runs) limit_speed_changes(run, max_lines(cell));
+            }
             planned.operation.toolpath_operation = i;
-            planned.operation.kind = toolpath.operations[i].kind;
+            planned.operation.kind = operation.kind;
             all_planned.all.push_back(std::move(planned));
         }
         if (left_out[i].first > 0 && all_planned.left_out == 0) all_planned.left_out_because = left_out[i].second;

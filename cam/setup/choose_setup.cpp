@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -40,13 +41,14 @@ std::vector<std::int32_t> cuts_of(const std::vector<FlushCap>& caps) {
     return cuts;
 }
 
-// What may stay out of reach of a piece whatever its share: a square of two diameters of the finishing tool. Nothing
-// where no block may be sawn.
+// What may stay out of reach of a piece whatever its share: a square of two diameters of the ball that finishes after
+// the largest one. Nothing where no block may be sawn.
 double allowed_mm2(const Cell& cell) {
     if (!is_any_sawn(cell)) return 0;
     if (!cell.machine) return 4 * cell.tool.diameter * cell.tool.diameter;
     const std::vector<CuttingTool>& tools = cell.machine->tools;
-    const double diameter = tools[finishing_tool(tools, tools[roughing_tool(tools)].diameter)].diameter;
+    const double largest = tools[finishing_tool(tools, std::numeric_limits<double>::infinity())].diameter;
+    const double diameter = tools[finishing_tool(tools, largest)].diameter;
     return 4 * diameter * diameter;
 }
 

@@ -30,7 +30,7 @@ TEST(AllowedTools, AreThoseThatAreNamedInTheOrderOfTheCell) {
     EXPECT_EQ(some.machine->tools[1], cell.machine->tools[3]);
     EXPECT_EQ(some.tool.number, 3) << "the tool that jobs without a program name";
     EXPECT_EQ(some.tool.diameter, 12);
-    EXPECT_EQ(with_tools(cell, {1, 2, 3, 4, 5, 6, 7}), cell);
+    EXPECT_EQ(with_tools(cell, {1, 2, 3, 4, 5, 6, 7, 8}), cell);
 }
 
 TEST(AllowedTools, ThatCannotCarveAreRefused) {

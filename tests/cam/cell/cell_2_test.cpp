@@ -107,7 +107,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     ProgramSettings program;
     program.link_feed_mm_per_s = 300;
     EXPECT_EQ(machine.program, program);
-    ASSERT_EQ(machine.tools.size(), 7U);
+    ASSERT_EQ(machine.tools.size(), 8U);
     CuttingTool tool;
     tool.number = 4;
     tool.name = "ball nose 6 mm";

@@ -111,7 +111,7 @@ TEST(MakeToolpath, EachBallEndedToolIsUsedAlongADirectionOrListedWithTheReason) 
         return unused.tool.has_value() && !unused.orientation.has_value();
     });
     ASSERT_NE(left_out, path.unused.end());
-    EXPECT_EQ(left_out->because.substr(0, 14), "tool 2 roughs,");
+    EXPECT_EQ(left_out->because.substr(0, 14), "tool 8 roughs,");
     EXPECT_NE(left_out->because.find("or add less than 0.3 % of the surface"), std::string::npos);
 }
 

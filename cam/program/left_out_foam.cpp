@@ -1,0 +1,55 @@
+// The tool stands for its way at places a radius apart, as a capsule from its tip up to the retract plane. O(links *
+// (1 + length / radius) * bodies).
+
+#include "cam/program/left_out_foam.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qchopper {
+namespace {
+
+constexpr double clearance = 5;  // mm
+
+}  // namespace
+
+std::vector<Capsule> bodies_of_cut(Vec3 from, Vec3 to, Vec3 tool_axis, double radius, double retract) {
+    const Vec3 way = to - from;
+    const auto steps = static_cast<std::size_t>(std::ceil(norm(way) / radius));
+    // Half way between two places the way is half a radius from the nearest.
+    const double wide = std::hypot(radius, 0.5 * radius);
+    std::vector<Capsule> bodies;
+    for (std::size_t i = 0; i <= steps; ++i) {
+        const Vec3 tip = steps > 0 ? from + (static_cast<double>(i) / static_cast<double>(steps)) * way : from;
+        const double height = std::max(0.0, retract - dot(tool_axis, tip));
+        bodies.push_back({tip, tip + height * tool_axis, wide});
+    }
+    return bodies;
+}
+
+std::size_t slow_links_near(const std::vector<Capsule>& bodies, const CuttingTool& tool, double retract,
+                            ProgramOperation& operation) {
+    if (bodies.empty()) return 0;
+    std::size_t slowed = 0;
+    for (ProgramRun& run : operation.runs) {
+        Vec3 from = run.start;
+        for (ProgramMove& move : run.moves) {
+            const Vec3 begin = from;
+            from = move.tip;
+            const bool is_link = move.kind == MoveKind::link || move.kind == MoveKind::retract;
+            if (!is_link || move.speed <= tool.feed_min_mm_per_s) continue;
+            const std::vector<Capsule> way =
+                bodies_of_cut(begin, move.tip, operation.tool_axis, 0.5 * tool.diameter, retract);
+            const bool is_near = std::any_of(way.begin(), way.end(), [&](const Capsule& own) {
+                return std::any_of(bodies.begin(), bodies.end(),
+                                   [&](const Capsule& body) { return distance(own, body) < clearance; });
+            });
+            if (!is_near) continue;
+            move.speed = tool.feed_min_mm_per_s;
+            ++slowed;
+        }
+    }
+    return slowed;
+}
+
+}  // namespace qchopper
