@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/parallel.h"
 #include "sim/replay/reachable.h"
@@ -37,19 +38,9 @@ void add_samples(const TriangleMesh& mesh, std::uint32_t t, double spacing, std:
 
 struct Judged {
     float distance = 0;
-    const Closing* by = nullptr;  // the first one that comes to it; nothing: none does
+    std::optional<Reach> by;  // the first one that comes to it; nothing: none does
 };
-
-bool comes_to(const Closing& closing, Vec3 point, double within) {
-    const Vec3 q = apply_inverse(closing.map.frame_in_setup, point);
-    return closing.map.distance_above(q, within + 1) <= within;
-}
-
-const Closing* first_to(const std::vector<const Closing*>& closings, Vec3 point, double within) {
-    const auto found = std::find_if(closings.begin(), closings.end(),
-                                    [&](const Closing* closing) { return comes_to(*closing, point, within); });
-    return found == closings.end() ? nullptr : *found;
-}
+using Reaches = std::vector<std::optional<Reach>>;  // by sample
 
 struct Within {
     double tolerance = 0;  // mm of foam
@@ -71,20 +62,20 @@ double percentile(std::vector<std::pair<float, float>>& by_distance, double shar
 
 // Areas and distances. The figures know already what is given up.
 void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const std::vector<Judged>& judged,
-            const std::vector<const Closing*>& given_up, const Within& within) {
+            const Reaches& given_up, const Within& within) {
     std::vector<std::pair<float, float>> by_distance;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Sample& s = samples[i];
         const Judged& j = judged[i];
         figures.area_mm2 += s.area;
         figures.distance[s.triangle] = std::max(figures.distance[s.triangle], j.distance);
-        if (j.by == nullptr) {
+        if (!j.by) {
             figures.largest_unreachable = std::max<double>(figures.largest_unreachable, j.distance);
             continue;
         }
         figures.is_reachable[s.triangle] = true;
         figures.reachable_mm2 += s.area;
-        if (given_up[i] != nullptr) continue;
+        if (given_up[i]) continue;
         by_distance.emplace_back(j.distance, s.area);
         if (j.distance <= within.tolerance && within.gouge[s.triangle] <= within.too_deep) {
             figures.within_mm2 += s.area;
@@ -94,22 +85,8 @@ void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const 
     figures.percentile_99 = percentile(by_distance, 0.99);
 }
 
-// The closings along all directions of the setup by the tools that `tools_of` gives for each.
-template <class ToolsOf>
-std::vector<const Closing*> closings_by(Closings& known, const ReplayScene& scene, const ToolsOf& tools_of,
-                                        const Context& context) {
-    std::vector<const Closing*> closings;
-    const std::size_t directions = milling_orientations(scene);
-    for (std::size_t d = 0; d < directions; ++d) {
-        context.progress("orientations closed", d, directions);
-        for (const Closing* closing : known.along(d, tools_of(d), context)) closings.push_back(closing);
-    }
-    return closings;
-}
-
-std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& stock_model,
-                          const std::vector<const Closing*>& closings, double within_reach, double most,
-                          const Context& context) {
+std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& stock_model, const Reaches& reaches,
+                          double most, const Context& context) {
     std::vector<Judged> judged(samples.size());
     constexpr std::size_t lot = 4096;
     for (std::size_t first = 0; first < samples.size(); first += 64 * lot) {
@@ -119,8 +96,7 @@ std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& 
                         [&](std::size_t begin, std::size_t end) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 const Vec3 p = samples[i].point;
-                                judged[i] = {static_cast<float>(stock_model.distance_to_removed(p, most)),
-                                             first_to(closings, p, within_reach)};
+                                judged[i] = {static_cast<float>(stock_model.distance_to_removed(p, most)), reaches[i]};
                             }
                         });
     }
@@ -128,11 +104,11 @@ std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& 
 }
 
 // Areas of the points that are given up, by what would come to them.
-std::vector<GivenUp> areas_of(const std::vector<const Closing*>& given_up, const std::vector<Sample>& samples,
+std::vector<GivenUp> areas_of(const Reaches& given_up, const std::vector<Sample>& samples,
                               const std::vector<CuttingTool>& tools) {
     std::vector<GivenUp> all;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (given_up[i] == nullptr) continue;
+        if (!given_up[i]) continue;
         const GivenUp own{tools[given_up[i]->tool].number, given_up[i]->orientation, samples[i].area};
         const auto same = std::find_if(all.begin(), all.end(), [&](const GivenUp& other) {
             return other.tool == own.tool && other.orientation == own.orientation;
@@ -172,27 +148,36 @@ LeftoverFigures measure_leftover(const StockModel& stock_model, const ReplayScen
     }
     const double within_reach = scene.scallop + 0.75 * options.reach_cell;
     const double tolerance = scene.scallop + options.too_much;
-    Closings known(scene, options.reach_cell);
-    const auto closings_with = [&](const auto& tools_of) { return closings_by(known, scene, tools_of, context); };
-    const auto allowed = closings_with([&](std::size_t) { return allowed_tools(scene); });
-    const std::vector<Judged> judged = judge(samples, stock_model, allowed, within_reach, options.most, context);
+    // Of the samples that hold a condition; nothing for the others.
+    const auto reach_where = [&](const auto& holds, const ToolsOf& tools_of) {
+        std::vector<std::size_t> asked;
+        std::vector<Vec3> points;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (!holds(i)) continue;
+            asked.push_back(i);
+            points.push_back(samples[i].point);
+        }
+        Reaches all(samples.size());
+        const Reaches found = first_reach(scene, points, tools_of, options.reach_cell, within_reach, context);
+        for (std::size_t k = 0; k < asked.size(); ++k) all[asked[k]] = found[k];
+        return all;
+    };
+    const Reaches allowed =
+        reach_where([](std::size_t) { return true; }, [&](std::size_t) { return allowed_tools(scene); });
+    const std::vector<Judged> judged = judge(samples, stock_model, allowed, options.most, context);
 
     // Of a point that keeps too much foam: what would come to it, where nothing that is used does.
-    std::vector<const Closing*> given_up(samples.size(), nullptr);
-    std::vector<const Closing*> not_allowed(samples.size(), nullptr);
-    if (std::any_of(judged.begin(), judged.end(), [&](const Judged& j) { return j.by && j.distance > tolerance; })) {
-        const auto used = closings_with([&](std::size_t d) { return tools_along(scene, d); });
-        parallel_for(0, samples.size(), [&](std::size_t i) {
-            if (judged[i].by == nullptr || judged[i].distance <= tolerance) return;
-            if (first_to(used, samples[i].point, within_reach) == nullptr) given_up[i] = judged[i].by;
-        });
+    const auto keeps_too_much = [&](std::size_t i) { return judged[i].distance > tolerance; };
+    const auto is_kept_in_reach = [&](std::size_t i) { return judged[i].by && keeps_too_much(i); };
+    const Reaches used = reach_where(is_kept_in_reach, [&](std::size_t d) { return tools_along(scene, d); });
+    Reaches given_up(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (is_kept_in_reach(i) && !used[i]) given_up[i] = judged[i].by;
     }
+    Reaches not_allowed(samples.size());
     if (!scene.tools.empty()) {
-        const auto all = closings_with([&](std::size_t) { return all_tools(scene); });
-        parallel_for(0, samples.size(), [&](std::size_t i) {
-            if (judged[i].by != nullptr || judged[i].distance <= tolerance) return;
-            not_allowed[i] = first_to(all, samples[i].point, within_reach);
-        });
+        not_allowed = reach_where([&](std::size_t i) { return !judged[i].by && keeps_too_much(i); },
+                                  [&](std::size_t) { return all_tools(scene); });
     }
     LeftoverFigures figures;
     figures.given_up = areas_of(given_up, samples, scene.cell->machine->tools);

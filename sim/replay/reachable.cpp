@@ -1,24 +1,23 @@
-// Heights of triangles at the centres of cells by barycentric coordinates; grey dilation and erosion (J. Serra: Image
-// Analysis and Mathematical Morphology, 1982) in stretches of a row, by taps that can change them. O(cells * (radius /
-// cell)^2) at most, a fifth of it on smooth surfaces.
+// Heights of triangles at the centres of cells by barycentric coordinates, then cutter_morphology.h; points that no
+// tool has come to yet are asked of the next closing, which is computed about them alone. O(cells * (radius / cell)^2)
+// at most a closing.
 
 #include "sim/replay/reachable.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "cam/cell/machine_bodies.h"
+#include "sim/replay/cutter_morphology.h"
 #include "sim/replay/stock/cutter.h"
-#include "sim/replay/stock/dexel_map.h"
 #include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
 
-constexpr float nothing = -1e30F;
 constexpr double holder_cell = 2;
 
 void raise(SurfaceMap& map, Vec3 p) {
@@ -64,7 +63,7 @@ SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, dou
     map.y_min = (std::floor((box.min.y - around) / cell) - 1) * cell;
     map.columns = static_cast<std::int32_t>(std::ceil((box.max.x + around - map.x_min) / cell)) + 1;
     map.rows = static_cast<std::int32_t>(std::ceil((box.max.y + around - map.y_min) / cell)) + 1;
-    map.height.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), nothing);
+    map.height.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), no_surface);
     for (const Triangle& t : scene.target->triangles) rasterise(map, {points[t[0]], points[t[1]], points[t[2]]});
     for (const Vec3 p : points) raise(map, p);
     constexpr double wide = 1e5;
@@ -73,157 +72,6 @@ SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, dou
     rasterise(map, {floor[0], floor[1], floor[2]});
     rasterise(map, {floor[0], floor[2], floor[3]});
     return map;
-}
-
-// Points of the underside of a tool: a few beside each other in a row of cells.
-struct Taps {
-    std::int32_t dx = 0;  // of the first, in cells from the axis
-    std::int32_t dy = 0;
-    std::vector<float> height;  // above the tip
-    float lowest = 0;           // of them
-};
-
-constexpr std::int32_t columns_at_once = 64;
-constexpr std::int32_t taps_at_once = 16;
-
-// The lowest first: they decide most cells.
-std::vector<Taps> taps_of(const Cutter& cutter, double cell) {
-    std::vector<Taps> taps;
-    const auto most = static_cast<std::int32_t>(std::floor(cutter.radius / cell));
-    for (std::int32_t dy = -most; dy <= most; ++dy) {
-        for (std::int32_t dx = -most; dx <= most; ++dx) {
-            const double r = cell * std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy);
-            if (r > cutter.radius) continue;
-            const auto height = static_cast<float>(profile_height(cutter, r));
-            const bool goes_on = !taps.empty() && taps.back().dy == dy && taps.back().height.size() < taps_at_once;
-            if (!goes_on) taps.push_back({dx, dy, {}, height});
-            taps.back().height.push_back(height);
-            taps.back().lowest = std::min(taps.back().lowest, height);
-        }
-    }
-    std::stable_sort(taps.begin(), taps.end(), [](const Taps& a, const Taps& b) { return a.lowest < b.lowest; });
-    return taps;
-}
-
-struct Dilation {
-    static constexpr float none = nothing;
-    static float first(float a, float b) { return std::max(a, b); }
-    static float last(float a, float b) { return std::min(a, b); }
-    static float shifted(float height, float tap) { return height - tap; }
-};
-
-struct Erosion {
-    static constexpr float none = -nothing;
-    static float first(float a, float b) { return std::min(a, b); }
-    static float last(float a, float b) { return std::max(a, b); }
-    static float shifted(float height, float tap) { return height + tap; }
-};
-
-// For each cell of a map the first, by the order of `Morphology`, of the shifted heights about it. Taps are passed over
-// where the first of all heights under them, shifted least, is behind what all cells of the stretch have.
-template <class Morphology>
-class Morph {
- public:
-    Morph(const SurfaceMap& map, const std::vector<Taps>& taps)
-        : map_(map), taps_(taps), blocks_((map.columns + taps_at_once - 1) / taps_at_once) {
-        first_.assign(static_cast<std::size_t>(blocks_) * map.rows, Morphology::none);
-        for (std::int32_t j = 0; j < map.rows; ++j) {
-            for (std::int32_t i = 0; i < map.columns; ++i) {
-                float& own = first_[static_cast<std::size_t>(j) * blocks_ + i / taps_at_once];
-                own = Morphology::first(own, row(j)[i]);
-            }
-        }
-    }
-
-    std::vector<float> result() const {
-        std::vector<float> result(map_.height.size());
-        parallel_for(0, static_cast<std::size_t>(map_.rows), [&](std::size_t j) {
-            for (std::int32_t c = 0; c < map_.columns; c += columns_at_once) {
-                const std::int32_t count = std::min(columns_at_once, map_.columns - c);
-                const Stretch found = stretch(static_cast<std::int32_t>(j), c, count);
-                std::copy_n(found.begin(), count, result.begin() + static_cast<std::ptrdiff_t>(j) * map_.columns + c);
-            }
-        });
-        return result;
-    }
-
- private:
-    using Stretch = std::array<float, columns_at_once>;
-
-    const float* row(std::int32_t j) const {
-        return map_.height.data() + static_cast<std::ptrdiff_t>(j) * map_.columns;
-    }
-
-    Stretch stretch(std::int32_t j, std::int32_t column, std::int32_t count) const {
-        Stretch own;
-        own.fill(-Morphology::none);  // beyond the map nothing is behind it
-        std::fill_n(own.begin(), count, Morphology::none);
-        float last = Morphology::none;
-        for (const Taps& taps : taps_) {
-            const std::int32_t from = j + taps.dy;
-            if (from < 0 || from >= map_.rows) continue;
-            const float reached =
-                Morphology::shifted(first_in(from, column + taps.dx,
-                                             column + taps.dx + count + static_cast<std::int32_t>(taps.height.size())),
-                                    taps.lowest);
-            if (Morphology::last(reached, last) == reached) continue;
-            for (std::size_t k = 0; k < taps.height.size(); ++k) {
-                const std::int32_t begin = column + taps.dx + static_cast<std::int32_t>(k);
-                join(own, row(from), begin, count, taps.height[k]);
-            }
-            last = last_of(own);
-        }
-        return own;
-    }
-
-    // In lanes, which compilers turn into vectors.
-    static float last_of(const Stretch& own) {
-        std::array<float, 8> lanes{};
-        std::copy_n(own.begin(), lanes.size(), lanes.begin());
-        for (std::size_t i = lanes.size(); i < own.size(); i += lanes.size()) {
-            for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = Morphology::last(lanes[k], own[i + k]);
-        }
-        float last = lanes[0];
-        for (const float lane : lanes) last = Morphology::last(last, lane);
-        return last;
-    }
-
-    // Cells outside of the map are not asked.
-    void join(Stretch& own, const float* heights, std::int32_t begin, std::int32_t count, float tap) const {
-        const std::int32_t first = std::max(0, -begin);
-        const std::int32_t end = std::min(count, map_.columns - begin);
-        if (first == 0 && end == columns_at_once) {
-            const float* from = heights + begin;
-            for (std::size_t i = 0; i < columns_at_once; ++i) {
-                own[i] = Morphology::first(own[i], Morphology::shifted(from[i], tap));
-            }
-            return;
-        }
-        for (std::int32_t i = first; i < end; ++i) {
-            float& cell = own[static_cast<std::size_t>(i)];
-            cell = Morphology::first(cell, Morphology::shifted(heights[begin + i], tap));
-        }
-    }
-
-    // Of the columns from `begin` to before `end`, at least.
-    float first_in(std::int32_t j, std::int32_t begin, std::int32_t end) const {
-        float first = Morphology::none;
-        const std::int32_t last_block = std::min(blocks_, (end + taps_at_once - 1) / taps_at_once);
-        for (std::int32_t b = std::max(0, begin) / taps_at_once; b < last_block; ++b) {
-            first = Morphology::first(first, first_[static_cast<std::size_t>(j) * blocks_ + b]);
-        }
-        return first;
-    }
-
-    const SurfaceMap& map_;
-    const std::vector<Taps>& taps_;
-    std::int32_t blocks_;       // of columns
-    std::vector<float> first_;  // of the heights of a block, row by row
-};
-
-template <class Morphology>
-std::vector<float> morph(const SurfaceMap& map, const std::vector<Taps>& taps) {
-    return Morph<Morphology>(map, taps).result();
 }
 
 // A flat disc above the tip, where holder or spindle begin.
@@ -269,18 +117,26 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTo
                      [&](std::size_t a, std::size_t b) { return of_cell[a].diameter < of_cell[b].diameter; });
 }
 
-// Raises tips to where flat discs above them, holder and spindle, are clear of the surface.
+// Raises tips to where flat discs above them, holder and spindle, are clear of the surface. Tips that are no_surface
+// are not asked for.
 void clear_holder(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
     const std::vector<BodyDisc> discs = discs_of(tool, scene.cell->machine->spindle);
-    const auto [lowest, highest] = std::minmax_element(tips.height.begin(), tips.height.end());
-    const double depth = *highest - *lowest;  // before tips are raised
+    float lowest = -no_surface;
+    float highest = no_surface;
+    for (const float tip : tips.height) {
+        if (tip == no_surface) continue;
+        lowest = std::min(lowest, tip);
+        highest = std::max(highest, tip);
+    }
+    const double depth = highest - lowest;  // before tips are raised
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;
         SurfaceMap coarse = target_surface(scene, orientation, holder_cell, radius);
-        coarse.height = morph<Dilation>(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell));
+        coarse.height = dilated(coarse, {ToolShape::flat, radius, 0, 0, 1}, CellBlocks::all_of(coarse));
         for (std::int32_t j = 0; j < tips.rows; ++j) {
             for (std::int32_t i = 0; i < tips.columns; ++i) {
                 float& tip = tips.height[static_cast<std::size_t>(j) * tips.columns + i];
+                if (tip == no_surface) continue;
                 const double x = tips.x_min + (i + 0.5) * tips.cell;
                 const double y = tips.y_min + (j + 0.5) * tips.cell;
                 const auto least = static_cast<float>(coarse.at(x, y) - height);
@@ -290,32 +146,38 @@ void clear_holder(const ReplayScene& scene, std::size_t orientation, const Cutti
     }
 }
 
+// The closing of a map of the target, of the cells asked for.
+void close(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, const CellBlocks& asked,
+           SurfaceMap& map) {
+    const Cutter cutter = cutter_of(tool);
+    map.height = dilated(map, cutter, asked.grown(static_cast<std::int32_t>(std::ceil(cutter.radius / map.cell))));
+    clear_holder(scene, orientation, tool, map);
+    map.height = eroded(map, cutter, asked);
+}
+
+// What is nearer to a point than `most` along both sides of the map.
+CellRange cells_around(const SurfaceMap& map, Vec3 point, double most) {
+    const auto cell_of = [&](double at, double min) {
+        return static_cast<std::int32_t>(std::floor((at - min) / map.cell));
+    };
+    return {cell_of(point.x - most, map.x_min) - 1, cell_of(point.x + most, map.x_min) + 2,
+            cell_of(point.y - most, map.y_min) - 1, cell_of(point.y + most, map.y_min) + 2};
+}
+
+// Whether a tool reaches nothing that a finer one, whose closing is known to be limited by its holder or not, does not.
+bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_finer_limited, const Spindle& spindle) {
+    return is_held_by(finer, tool) && (!is_finer_limited || holds_all_of(tool, finer, spindle));
+}
+
 }  // namespace
-
-double SurfaceMap::at(double x, double y) const {
-    const auto i = static_cast<std::int32_t>(std::floor((x - x_min) / cell));
-    const auto j = static_cast<std::int32_t>(std::floor((y - y_min) / cell));
-    if (i < 0 || j < 0 || i >= columns || j >= rows) return nothing;
-    return height[static_cast<std::size_t>(j) * columns + i];
-}
-
-double SurfaceMap::distance_above(Vec3 point, double most) const {
-    return distance_to_cells(point, x_min, y_min, cell, most, [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || j < 0 || i >= columns || j >= rows) return std::numeric_limits<float>::infinity();
-        return height[static_cast<std::size_t>(j) * columns + i];
-    });
-}
 
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
                       const Context& context) {
     context.check_cancelled();
     const Cutter cutter = cutter_of(tool);
     SurfaceMap map = target_surface(scene, orientation, cell, 2 * cutter.radius + 2 * cell);
-    const std::vector<Taps> taps = taps_of(cutter, cell);
-    map.height = morph<Dilation>(map, taps);
+    close(scene, orientation, tool, CellBlocks::all_of(map), map);
     context.check_cancelled();
-    clear_holder(scene, orientation, tool, map);
-    map.height = morph<Erosion>(map, taps);
     return map;
 }
 
@@ -362,14 +224,51 @@ std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector
     keep_finishing(tools, machine.tools);
     std::vector<const Closing*> closings;
     for (const std::size_t tool : tools) {
-        const bool adds_nothing = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
-            const CuttingTool& other = machine.tools[finer->tool];
-            return is_held_by(other, machine.tools[tool]) &&
-                   (!finer->map.is_limited || holds_all_of(machine.tools[tool], other, machine.spindle));
+        const bool is_needless = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
+            return adds_nothing(machine.tools[tool], machine.tools[finer->tool], finer->map.is_limited,
+                                machine.spindle);
         });
-        if (!adds_nothing) closings.push_back(&of(orientation, tool, context));
+        if (!is_needless) closings.push_back(&of(orientation, tool, context));
     }
     return closings;
+}
+
+std::vector<std::optional<Reach>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
+                                              const ToolsOf& tools_of, double cell, double within,
+                                              const Context& context) {
+    const CellMachine& machine = *scene.cell->machine;
+    const double most = within + cell;  // beyond `within` the distance does not count
+    std::vector<std::optional<Reach>> reach(points.size());
+    std::vector<std::size_t> left(points.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    const std::size_t directions = milling_orientations(scene);
+    for (std::size_t d = 0; d < directions; ++d) {
+        context.progress("orientations closed", d, directions);
+        std::vector<std::size_t> tools = tools_of(d);
+        keep_finishing(tools, machine.tools);
+        std::vector<std::pair<std::size_t, bool>> closed;  // tools, and whether their holders limit them
+        for (const std::size_t tool : tools) {
+            const bool is_needless = std::any_of(closed.begin(), closed.end(), [&](const auto& finer) {
+                return adds_nothing(machine.tools[tool], machine.tools[finer.first], finer.second, machine.spindle);
+            });
+            if (is_needless || left.empty()) continue;
+            context.check_cancelled();
+            const double radius = 0.5 * machine.tools[tool].diameter;
+            SurfaceMap map = target_surface(scene, d, cell, 2 * radius + 2 * cell);
+            CellBlocks asked(map);
+            for (const std::size_t i : left) {
+                asked.add(cells_around(map, apply_inverse(map.frame_in_setup, points[i]), most));
+            }
+            close(scene, d, machine.tools[tool], asked, map);
+            closed.emplace_back(tool, map.is_limited);
+            parallel_for(0, left.size(), [&](std::size_t k) {
+                const Vec3 q = apply_inverse(map.frame_in_setup, points[left[k]]);
+                if (map.distance_above(q, most) <= within) reach[left[k]] = Reach{tool, d};
+            });
+            std::erase_if(left, [&](std::size_t i) { return reach[i].has_value(); });
+        }
+    }
+    return reach;
 }
 
 const Closing& Closings::of(std::size_t orientation, std::size_t tool, const Context& context) {

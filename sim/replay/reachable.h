@@ -8,30 +8,17 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/context.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/surface_map.h"
 
 namespace qchopper {
-
-// A surface over the plane of one direction's frame.
-struct SurfaceMap {
-    Pose frame_in_setup;
-    double x_min = 0;  // corner of the first cell
-    double y_min = 0;
-    double cell = 1;
-    std::int32_t columns = 0;
-    std::int32_t rows = 0;
-    std::vector<float> height;  // at the centres of cells, row by row; -1e30: nothing
-    bool is_limited = false;    // holder or spindle keep the tool higher somewhere
-    double at(double x, double y) const;
-    // Distance from a point of the frame to the nearest point above the surface, at most `most`; cells count at their
-    // centres.
-    double distance_above(Vec3 point, double most) const;
-};
 
 // The closing along a direction by a tool. Throws Cancelled.
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
@@ -39,6 +26,22 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const C
 
 // The tools that the program uses along each direction, and those that parts before it used: ascending, each once.
 std::vector<StockTool> used_tools(const ReplayScene& scene);
+
+// Indices in CellMachine::tools, along a direction.
+using ToolsOf = std::function<std::vector<std::size_t>(std::size_t orientation)>;
+
+// A tool that comes to a point, and the direction from which it does.
+struct Reach {
+    std::size_t tool = 0;         // index in CellMachine::tools
+    std::size_t orientation = 0;  // index in ReplayScene::orientations
+};
+
+// Of each point of the setup the first of the closings, in the order of directions and of the tools of Closings::along,
+// that comes as near to it as `within`; nothing: none does. The same as to ask them one after the other, but for what
+// is not computed because nobody asks for it (tests/sim/replay/given_up_test.cpp). Throws Cancelled.
+std::vector<std::optional<Reach>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
+                                              const ToolsOf& tools_of, double cell, double within,
+                                              const Context& context);
 
 // The closing by one tool along one direction.
 struct Closing {
