@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -155,6 +156,42 @@ void expect_few_are_enough(double wall, std::size_t expected) {
             ASSERT_NEAR(lowest_of_few, lowest_of_all, 0.25) << x << " " << y;  // half a cell
         }
     }
+}
+
+// Points all over a plate with balls beside a high wall: each is asked of the closings one after the other.
+TEST(FirstReach, IsTheFirstClosingThatComesToAPoint) {
+    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    std::vector<TriangleMesh> meshes{shapes::box({0, 0, 0}, {60, 60, 5}), shapes::box({-12, 0, 0}, {0, 60, 190})};
+    for (const double x : {12.0, 35.0, 50.0}) meshes.push_back(shapes::ball({x, x, 6}, 7, 10));
+    const TriangleMesh mesh = shapes::joined(meshes);
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.orientations = {{{0, 0, 1}, 0, {}}, {normalized(Vec3{0.5, 0.2, 1}), 0, {}}};
+    scene.target = &mesh;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> beside(-12, 60);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 3000; ++i) points.push_back({beside(random), beside(random), 0.2 * (beside(random) + 12)});
+    constexpr double cell_size = 0.5;
+    constexpr double within = 0.6;
+    const auto tools = [&](std::size_t) { return allowed_tools(scene); };
+    const std::vector<std::optional<Reach>> reach = first_reach(scene, points, tools, cell_size, within, {});
+    Closings known(scene, cell_size);
+    std::vector<const Closing*> closings = known.along(0, allowed_tools(scene), {});
+    for (const Closing* closing : known.along(1, allowed_tools(scene), {})) closings.push_back(closing);
+    std::map<std::pair<std::size_t, std::size_t>, int> count;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto first = std::find_if(closings.begin(), closings.end(), [&](const Closing* closing) {
+            const Vec3 q = apply_inverse(closing->map.frame_in_setup, points[i]);
+            return closing->map.distance_above(q, within + 1) <= within;
+        });
+        ASSERT_EQ(reach[i].has_value(), first != closings.end()) << i;
+        if (!reach[i]) continue;
+        ASSERT_EQ(reach[i]->tool, (*first)->tool) << i;
+        ASSERT_EQ(reach[i]->orientation, (*first)->orientation) << i;
+        ++count[{reach[i]->orientation, reach[i]->tool}];
+    }
+    EXPECT_GE(count.size(), 4U) << "several tools along both directions are the first for some points";
 }
 
 TEST(Closings, TheFinestIsEnoughWhereItsHolderIsClear) {
