@@ -130,6 +130,24 @@ float ToolDilation::highest(std::size_t row, std::size_t first, std::size_t end)
     return *std::max_element(tops + first / block, tops + (end - 1) / block + 1);
 }
 
+namespace {
+
+// Of the first `count`; of all of them in lanes, which compilers turn into vectors.
+float lowest_of(const std::array<float, chunk>& heights, std::size_t count) {
+    if (count < chunk) {
+        return *std::min_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    std::array<float, 8> lanes{};
+    static_assert(chunk % lanes.size() == 0);
+    std::copy_n(heights.begin(), lanes.size(), lanes.begin());
+    for (std::size_t i = lanes.size(); i < chunk; i += lanes.size()) {
+        for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = std::min(lanes[k], heights[i + k]);
+    }
+    return *std::min_element(lanes.begin(), lanes.end());
+}
+
+}  // namespace
+
 void ToolDilation::fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const {
     const HeightField& map = *target_;
     std::array<float, chunk> own;
@@ -145,7 +163,7 @@ void ToolDilation::fill_chunk(std::size_t row, std::size_t first, std::size_t co
         if (!has_below && !has_above) break;
         float top = has_below ? highest(row - dy, from, end) : HeightField::nothing;
         if (has_above) top = std::max(top, highest(row + dy, from, end));
-        const float lowest = *std::min_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count));
+        const float lowest = lowest_of(own, count);
         if (top + drops[0] <= lowest) continue;
         std::fill_n(pair, chunk + 2 * reach, HeightField::nothing);
         float* in_map = pair + (from + reach - first);
