@@ -183,12 +183,12 @@ class ToolpathMaker {
             options.skin_width = settings_.allowance + skin_beyond;
         }
         RoughingRuns found = rough(space, tool, body_of(tool_index), operation, options, context_);
-        if (is_first || is_whole || is_worthwhile(found, operation)) {
+        if (is_first || is_whole || found.deepest > deepest_cut(finishing) || is_worthwhile(found, operation)) {
             add(std::move(operation), space, std::move(found.runs));
         }
     }
 
-    // Finishing cuts a little foam in less time than a roughing that goes a long way for it.
+    // Finishing cuts a little foam, no deeper than it may, in less time than a roughing that goes a long way for it.
     bool is_worthwhile(const RoughingRuns& found, const Operation& operation) const {
         double seconds = 0;
         for (const PathRun& run : found.runs) seconds += seconds_at_feed(run, operation);
@@ -324,8 +324,8 @@ class ToolpathMaker {
         return length;
     }
 
-    // Foam that was left to finishing keeps holders and flutes from its own passes: it is roughed after all, by the tool
-    // in the spindle.
+    // Foam that was left to finishing keeps holders and flutes from its own passes: it is roughed after all, by the
+    // tool in the spindle.
     void clear_for(std::size_t tool) {
         for (std::size_t d = 0; d < setup_.access.orientations.size(); ++d) rough_along(d, tool, true);
         retry(tool);

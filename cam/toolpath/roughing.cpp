@@ -33,7 +33,7 @@ class RoughingLevels {
 
     // Evenly spaced from the highest foam that is to go, to the lowest tip over such foam; of these, from above, the
     // ones at which there is anything to mill.
-    std::vector<double> heights() const {
+    std::vector<double> heights() {
         const HeightField core = dilate_by_disc(space_.stock, core_radius_);
         const HeightField whole = dilate_by_disc(space_.centre_stock, flute_radius_);
         const HeightField& cl = *space_.cl_limit;
@@ -44,6 +44,7 @@ class RoughingLevels {
             const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
             if (!is_high && !(static_cast<double>(core.height[i]) > low + min_above())) continue;
             const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
+            deepest_ = std::max(deepest_, static_cast<double>(core.height[i]) - low);
             top = std::max(top, high);
             bottom = std::min(bottom, low);
         }
@@ -79,6 +80,9 @@ class RoughingLevels {
         }
         return ordered;
     }
+
+    // What heights() found: RoughingRuns::deepest.
+    double deepest() const { return deepest_; }
 
     LevelRegion region(double level) const {
         LevelRegion region{space_.stock.cell, space_.stock.columns, space_.stock.rows, {}, {}};
@@ -116,6 +120,7 @@ class RoughingLevels {
     const CuttingTool& tool_;
     double stepdown_;
     RoughingOptions options_;
+    double deepest_ = 0;
     double core_radius_ = 0;   // foam within it is to go
     double flute_radius_ = 0;  // foam within it is cut by the flute
     double beside_ = 0;
@@ -125,7 +130,7 @@ class RoughingLevels {
 
 RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body, const Operation& operation,
                    const RoughingOptions& options, const Context& context) {
-    const RoughingLevels levels(space, tool, operation.stepdown, options);
+    RoughingLevels levels(space, tool, operation.stepdown, options);
     const std::vector<double> heights = levels.heights();
     double highest = -std::numeric_limits<double>::infinity();  // foam only gets lower
     for (const float height : space.stock.height) highest = std::max(highest, static_cast<double>(height));
@@ -142,7 +147,7 @@ RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody&
         }
         runs.add(roughing_passes(levels.region(level), level, operation.stepover));
     }
-    RoughingRuns result{runs.finish(), 0};
+    RoughingRuns result{runs.finish(), 0, levels.deepest()};
     result.removed_mm3 = runs.removed_mm3();
     return result;
 }

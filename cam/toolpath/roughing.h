@@ -29,6 +29,7 @@ struct RoughingOptions {
 struct RoughingRuns {
     std::vector<PathRun> runs;
     double removed_mm3 = 0;
+    double deepest = 0;  // foam above the lowest tip, but for skins, before anything is removed
 };
 
 // Runs in map coordinates that leave no foam higher than a level's height above the tip limit where the tool comes to

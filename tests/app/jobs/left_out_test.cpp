@@ -74,7 +74,7 @@ TEST(LeftOut, TheJobAsMadeIsProvenAndSaysWhatItLeavesOut) {
     EXPECT_TRUE(made.verdict.is_positive) << kinds_of(made.verdict);
     const JobProgram& program = *made.job.program;
     EXPECT_TRUE(std::any_of(program.left_out.begin(), program.left_out.end(), [](const ToolLeftOut& left) {
-        return left.tool && !left.orientation && left.because.find("tool 2 roughs") != std::string::npos;
+        return left.tool && !left.orientation && left.because.find("tool 8 roughs") != std::string::npos;
     })) << "a tool that is not worth its change on a piece so small";
     EXPECT_LE(figure(made.verdict, "given_up_percent"), 0.5);
     EXPECT_EQ(figure(made.verdict, "not_allowed_percent"), -1) << "there was no order";

@@ -230,20 +230,20 @@ std::string with_pass_along_the_face(const std::string& text, const Setup& setup
 
 TEST(SawnJobs, APassOfTheFloorAlongTheSawnFaceIsRefused) {
     const ProvenJob& proven = sawn_job();
-    constexpr std::uint16_t ball_12 = 3;
-    constexpr double radius = 6;
+    constexpr std::uint16_t ball_20 = 1;
+    constexpr double radius = 10;
     for (const double away : {radius, radius + 3}) {
         ProgramFiles files = texts_of(proven.job);
         bool is_changed = false;
         for (const JobChunk& chunk : proven.job.program->chunks) {
-            if (is_changed || chunk.tool != ball_12 || chunk.orientation != 0) continue;
+            if (is_changed || chunk.tool != ball_20 || chunk.orientation != 0) continue;
             for (ProgramFile& file : files) {
                 if (file.name != chunk.file) continue;
                 file.text = with_pass_along_the_face(file.text, proven.job.setup, away);
                 is_changed = true;
             }
         }
-        ASSERT_TRUE(is_changed) << "no chunk of tool 3 from above";
+        ASSERT_TRUE(is_changed) << "no chunk of tool 1 from above";
         const JobVerdict verdict = judged(remade(proven, files), proven.cell);
         std::string texts;
         for (const ProofFinding& finding : verdict.findings) texts += describe(finding) + "\n";
