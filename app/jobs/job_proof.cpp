@@ -20,7 +20,7 @@
 #include "sim/program/krl_reader.h"
 #include "sim/replay/flush_check.h"
 #include "sim/replay/machine_walk.h"
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/signal_walk.h"
 

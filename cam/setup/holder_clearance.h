@@ -3,7 +3,7 @@
 //
 // mm. Below its surface in a map the piece is taken as solid, so that under an overhang the limit is on the safe side.
 // Drills, along axes that are not those of maps, are asked point by point in cam/toolpath/drilling.cpp; the replay has
-// its own by rule (sim/replay/reachable.cpp). Held by tests/cam/stock/cl_surface_test.cpp and
+// its own by rule (sim/replay/reach/reachable.cpp). Held by tests/cam/stock/cl_surface_test.cpp and
 // tests/cam/toolpath/passes_and_links_test.cpp.
 
 #pragma once

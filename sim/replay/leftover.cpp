@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 
 namespace qchopper {
 namespace {
@@ -38,9 +38,9 @@ void add_samples(const TriangleMesh& mesh, std::uint32_t t, double spacing, std:
 
 struct Judged {
     float distance = 0;
-    std::optional<Reach> by;  // the first one that comes to it; nothing: none does
+    std::optional<ReachingTool> by;  // the first one that comes to it; nothing: none does
 };
-using Reaches = std::vector<std::optional<Reach>>;  // by sample
+using Reaches = std::vector<std::optional<ReachingTool>>;  // by sample
 
 struct Within {
     double tolerance = 0;  // mm of foam

@@ -12,7 +12,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 #include "sim/replay/hole_check.h"
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 
 namespace qchopper {
 namespace {

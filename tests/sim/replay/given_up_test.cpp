@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sim/replay/leftover.h"
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -175,7 +175,7 @@ TEST(FirstReach, IsTheFirstClosingThatComesToAPoint) {
     constexpr double cell_size = 0.5;
     constexpr double within = 0.6;
     const auto tools = [&](std::size_t) { return allowed_tools(scene); };
-    const std::vector<std::optional<Reach>> reach = first_reach(scene, points, tools, cell_size, within, {});
+    const std::vector<std::optional<ReachingTool>> reach = first_reach(scene, points, tools, cell_size, within, {});
     Closings known(scene, cell_size);
     std::vector<const Closing*> closings = known.along(0, allowed_tools(scene), {});
     for (const Closing* closing : known.along(1, allowed_tools(scene), {})) closings.push_back(closing);

@@ -3,7 +3,7 @@
 // mm. Per direction the highest points of the target and of the floor of the spoil layer on square cells; the least
 // heights at which a tool may stand, its holder and the spindle clear; and the lowest surface that it then leaves. The
 // flute asks for nothing of its own: above it a tool is as thick as below, and foam that is higher is removed in
-// levels. O(cells * (radius / cell)^2) (tests/sim/replay/reachable_test.cpp).
+// levels. O(cells * (radius / cell)^2) (tests/sim/replay/reach/reachable_test.cpp).
 
 #pragma once
 
@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/context.h"
+#include "sim/replay/reach/surface_map.h"
 #include "sim/replay/scene.h"
-#include "sim/replay/surface_map.h"
 
 namespace qchopper {
 
@@ -31,7 +31,7 @@ std::vector<StockTool> used_tools(const ReplayScene& scene);
 using ToolsOf = std::function<std::vector<std::size_t>(std::size_t orientation)>;
 
 // A tool that comes to a point, and the direction from which it does.
-struct Reach {
+struct ReachingTool {
     std::size_t tool = 0;         // index in CellMachine::tools
     std::size_t orientation = 0;  // index in ReplayScene::orientations
 };
@@ -39,9 +39,9 @@ struct Reach {
 // Of each point of the setup the first of the closings, in the order of directions and of the tools of Closings::along,
 // that comes as near to it as `within`; nothing: none does. The same as to ask them one after the other, but for what
 // is not computed because nobody asks for it (tests/sim/replay/given_up_test.cpp). Throws Cancelled.
-std::vector<std::optional<Reach>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
-                                              const ToolsOf& tools_of, double cell, double within,
-                                              const Context& context);
+std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
+                                                     const ToolsOf& tools_of, double cell, double within,
+                                                     const Context& context);
 
 // The closing by one tool along one direction.
 struct Closing {

@@ -1,6 +1,6 @@
 // Where tools come to beside a tower: each step of holder and spindle limits.
 
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 
 #include <gtest/gtest.h>
 

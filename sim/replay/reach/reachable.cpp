@@ -2,7 +2,7 @@
 // tool has come to yet are asked of the next closing, which is computed about them alone. O(cells * (radius / cell)^2)
 // at most a closing.
 
-#include "sim/replay/reachable.h"
+#include "sim/replay/reach/reachable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "cam/cell/machine_bodies.h"
-#include "sim/replay/cutter_morphology.h"
+#include "sim/replay/reach/cutter_morphology.h"
 #include "sim/replay/stock/cutter.h"
 #include "sim/replay/stock/tool_axis_frame.h"
 
@@ -233,12 +233,12 @@ std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector
     return closings;
 }
 
-std::vector<std::optional<Reach>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
-                                              const ToolsOf& tools_of, double cell, double within,
-                                              const Context& context) {
+std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, const std::vector<Vec3>& points,
+                                                     const ToolsOf& tools_of, double cell, double within,
+                                                     const Context& context) {
     const CellMachine& machine = *scene.cell->machine;
     const double most = within + cell;  // beyond `within` the distance does not count
-    std::vector<std::optional<Reach>> reach(points.size());
+    std::vector<std::optional<ReachingTool>> reach(points.size());
     std::vector<std::size_t> left(points.size());
     std::iota(left.begin(), left.end(), std::size_t{0});
     const std::size_t directions = milling_orientations(scene);
@@ -263,7 +263,7 @@ std::vector<std::optional<Reach>> first_reach(const ReplayScene& scene, const st
             closed.emplace_back(tool, map.is_limited);
             parallel_for(0, left.size(), [&](std::size_t k) {
                 const Vec3 q = apply_inverse(map.frame_in_setup, points[left[k]]);
-                if (map.distance_above(q, most) <= within) reach[left[k]] = Reach{tool, d};
+                if (map.distance_above(q, most) <= within) reach[left[k]] = ReachingTool{tool, d};
             });
             std::erase_if(left, [&](std::size_t i) { return reach[i].has_value(); });
         }

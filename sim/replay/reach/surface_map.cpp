@@ -1,6 +1,6 @@
 // Ring by ring about the point (distance_to_cells). O(cells within the distance).
 
-#include "sim/replay/surface_map.h"
+#include "sim/replay/reach/surface_map.h"
 
 #include <cmath>
 #include <limits>

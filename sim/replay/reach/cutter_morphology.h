@@ -2,16 +2,16 @@
 // Morphology, 1982).
 //
 // mm. Heights at the centres of cells; what lies beyond the map is not asked. The result does not depend on the number
-// of threads (tests/sim/replay/cutter_morphology_test.cpp).
+// of threads (tests/sim/replay/reach/cutter_morphology_test.cpp).
 
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "sim/replay/reach/surface_map.h"
 #include "sim/replay/stock/cutter.h"
 #include "sim/replay/stock/dexel_map.h"
-#include "sim/replay/surface_map.h"
 
 namespace qchopper {
 

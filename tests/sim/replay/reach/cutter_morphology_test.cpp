@@ -1,6 +1,6 @@
 // Dilation and erosion against the plain definition, bit for bit, whole and of some cells.
 
-#include "sim/replay/cutter_morphology.h"
+#include "sim/replay/reach/cutter_morphology.h"
 
 #include <gtest/gtest.h>
 

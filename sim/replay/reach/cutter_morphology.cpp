@@ -2,7 +2,7 @@
 // centres of cells; those under which the first of all heights could not be the first in a stretch are passed over.
 // O(cells * taps) at most.
 
-#include "sim/replay/cutter_morphology.h"
+#include "sim/replay/reach/cutter_morphology.h"
 
 #include <algorithm>
 #include <array>
