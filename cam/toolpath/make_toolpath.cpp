@@ -183,7 +183,7 @@ class ToolpathMaker {
             options.skin_width = settings_.allowance + skin_beyond;
         }
         RoughingRuns found = rough(space, tool, body_of(tool_index), operation, options, context_);
-        if (is_first || is_whole || found.deepest > deepest_cut(finishing) || is_worthwhile(found, operation)) {
+        if (is_first || is_whole || found.deepest > deepest_cut(finishing, 1) || is_worthwhile(found, operation)) {
             add(std::move(operation), space, std::move(found.runs));
         }
     }
@@ -388,9 +388,10 @@ class ToolpathMaker {
         return std::ranges::find(tools_.finishing, tool) + 2 < tools_.finishing.end();
     }
 
-    // The most foam that the tool cuts at once in its whole width at its least feed, at most twice its diameter.
-    double deepest_cut(const CuttingTool& tool) const {
-        const double by_rate = used_rate * tool.removal_mm3_per_s / (tool.diameter * tool.feed_min_mm_per_s);
+    // The most foam that the tool cuts at once in its whole width at its least feed and a share of its rate, at most
+    // three times its diameter.
+    double deepest_cut(const CuttingTool& tool, double share = used_rate) const {
+        const double by_rate = share * tool.removal_mm3_per_s / (tool.diameter * tool.feed_min_mm_per_s);
         return std::min({by_rate, depth_per_diameter * tool.diameter, tool.flute_length});
     }
 

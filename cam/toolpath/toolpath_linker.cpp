@@ -19,7 +19,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t many_moves = 250;                      // a run ends at the next link that goes high
+constexpr std::size_t many_moves = 600;                      // a run ends at the next link that goes high
 constexpr std::size_t max_moves = 900;                       // a run ends in the middle of a pass
 constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
 constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts

@@ -65,7 +65,7 @@ class ToolpathLinker {
     // Adds passes, nearest first. O(passes + length of the links / cell * (radius / cell)^2).
     void add(const std::vector<Pass>& passes);
 
-    // The runs in map coordinates, at most about 300 moves each where a link goes high anyway, never more than 1000.
+    // The runs in map coordinates, at most about 650 moves each where a link goes high anyway, never more than 1000.
     std::vector<PathRun> finish();
 
     // By all moves so far.
