@@ -10,10 +10,9 @@
 // replays the program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
 //
 // Links that come near to foam that now stays go at the least feed (left_out_foam.h). Cost: more foam for finishing may
-// make the proof refuse the job. A reserve
-// in the work envelope would refuse placements that are good but for a corner; raising the CL surface where the arm
-// does not hold it would need the arm, and an answer for every cell, while the toolpath is made. Test:
-// tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoHoldCarries.
+// make the proof refuse the job. A reserve in the work envelope would refuse placements that are good but for a corner;
+// raising the CL surface where the arm does not hold it would need the arm, and an answer for every cell, while the
+// toolpath is made. Test: tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoConfigurationTakes.
 
 #include "cam/program/make_program.h"
 

@@ -95,11 +95,6 @@ PostureSearch::PostureSearch(const Setup& setup, const MachineReachability& reac
     candidates_ = posture_candidates(reachability, cell, operation.orientation, judge_.turns_by_axis_6());
 }
 
-double PostureSearch::speed_of(MoveKind kind) const {
-    if (kind == MoveKind::approach) return operation_.approach_feed;
-    return kind == MoveKind::cut ? operation_.feed : operation_.link_feed;
-}
-
 // Where axis 4 or 6 leaves what its range holds, whichever whole turn is taken.
 std::size_t PostureSearch::within_turns(const ArmPosture& posture, std::size_t poses) const {
     const CellMachine& machine = *cell_.machine;
@@ -242,7 +237,7 @@ ProgramRun PostureSearch::run_of(const PathRun& run, const SampledPath& path, co
     made.moves.reserve(run.moves.size());
     for (const PathMove& move : run.moves) {
         const std::size_t end = at + sample_steps(tip, move.tip);
-        const double wanted = move.feed > 0 ? move.feed : speed_of(move.kind);
+        const double wanted = feed_of(operation_, move);
         const double slowest = move.kind == MoveKind::cut ? least : 0.5 * least;
         const double speed = speed_between(path, reachable, at, end, wanted, slowest);
         if (speed < wanted) ++lowered;

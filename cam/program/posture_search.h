@@ -59,7 +59,6 @@ class PostureSearch {
     std::size_t fast_poses(std::span<const PathRun> runs, const SampledPath& path, std::size_t poses) const;
     ReachablePath final_path(std::span<const PathRun> runs, const SampledPath& path, ReachablePath reachable);
     void describe_refusal(const MarginTally& tally, const PoseRegion& region);
-    double speed_of(MoveKind kind) const;
     // The speed wanted, or a lower one that every joint can follow from pose `first` to `last` of the path.
     double speed_between(const SampledPath& path, const ReachablePath& reachable, std::size_t first, std::size_t last,
                          double wanted, double least) const;
