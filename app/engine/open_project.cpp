@@ -136,7 +136,7 @@ PieceChecks OpenProject::checks() {
         return setups->is_machinable(piece);
     };
     checks.min_gain_mm2 = setups->min_gain_mm2();
-    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->planned())](Vec3 size) {
+    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->with_shortest_tools())](Vec3 size) {
         return blocks_needed(blocks, size);
     };
     return checks;

@@ -178,9 +178,9 @@ std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool has_or
          points(left.given_up_mm2()), "%", 2},
         {"given_up_cm2", "surface given up by them", left.given_up_mm2() / 100, "cm2", 1}};
     if (has_order) {
-        figures.push_back({"not_allowed_percent", "given up, of the surface, by order of the operator",
+        figures.push_back({"not_allowed_percent", "given up, of the surface, for tools that may not be used",
                            points(left.not_allowed_mm2()), "%", 2});
-        figures.push_back({"not_allowed_cm2", "surface given up by order", left.not_allowed_mm2() / 100, "cm2", 1});
+        figures.push_back({"not_allowed_cm2", "surface given up for them", left.not_allowed_mm2() / 100, "cm2", 1});
     }
     figures.push_back({"max_leftover_mm", "largest leftover on the reachable surface", left.largest, "mm", 2});
     figures.push_back(
@@ -245,7 +245,7 @@ void check_left_out(const ReplayScene& scene, const JobProgram& program, JobProo
 std::vector<std::string> notes_of(const JobProgram& program, const std::vector<std::uint16_t>& allowed) {
     std::vector<std::string> notes;
     if (!allowed.empty()) {
-        notes.push_back("by order of the operator it is carved with " + describe_tools(allowed) + " alone");
+        notes.push_back("of the cell's tools it is carved with " + describe_tools(allowed) + " alone");
     }
     if (const std::string moves = describe(program.moves_left_out); !moves.empty()) notes.push_back(moves);
     return notes;

@@ -7,7 +7,9 @@
 // or at most 2 points more of its surface are out of reach than for a tool without holder that tilts in all directions
 // (max_by_machine). Else it is cut by the planes that need the fewest blocks no higher than that tool; a piece no
 // longer than the tool is taken as it is, because cutting it further is no remedy. Accepted setups are those of the
-// jobs, so only pieces that are cut further cost more: 0.5 to 3 s for one that is refused.
+// jobs, so only pieces that are cut further cost more: 0.5 to 3 s for one that is refused. Where the cell has tools of
+// one kind with several stick-outs, that is asked with each set of tools (tool_sets()) until one is good enough, and
+// pieces are cut for the shortest.
 //
 // Of the bunny at 1.5 m in kr60-ha it made 48 pieces in place of 16, with 1.8 % in place of 22.8 % of the surface out
 // of reach and none that cannot be milled. A largest height in the cell file would be wrong for every convex piece; a
@@ -42,11 +44,31 @@ const T& once(std::optional<T>& known, const Make& make) {
     return *known;
 }
 
+MappedSetup with_stock_fit(SetupChoice choice, const ToolNumbers& tools, const Cell& planned) {
+    for (Setup& setup : choice.setups) setup.tools = tools;
+    StockFit fit = check_stock_fit(choice.setups.front(), planned);
+    return {std::move(choice), std::move(fit)};
+}
+
 UnreachableSurface unreachable_surface(const Setup& setup) {
     return {setup.access.unreachable_mm2(), setup.access.unreachable_share(), setup.access.allowed_mm2};
 }
 
+// Where no kind of tool has several stick-outs, the tools as they were ordered.
+std::vector<ToolNumbers> sets_of(const Cell& planned, const ToolNumbers& ordered) {
+    if (!planned.machine) return {ordered};
+    std::vector<ToolNumbers> sets = tool_sets(planned.machine->tools);
+    if (sets.size() == 1) sets.front() = ordered;
+    return sets;
+}
+
 }  // namespace
+
+Setups::Setups(Cell cell) : cell_(std::move(cell)), planned_(cell_), tool_sets_(sets_of(planned_, tools_)) {}
+
+Cell Setups::with_shortest_tools() const {
+    return with_tools(planned_, tool_sets_.front());
+}
 
 void Setups::set_orders(std::vector<SetupOrder> orders) {
     if (orders == orders_) return;
@@ -54,10 +76,11 @@ void Setups::set_orders(std::vector<SetupOrder> orders) {
     stages_.clear();
 }
 
-void Setups::set_tools(std::vector<std::uint16_t> tools) {
+void Setups::set_tools(ToolNumbers tools) {
     if (tools == tools_) return;
     planned_ = with_tools(cell_, tools);
     tools_ = std::move(tools);
+    tool_sets_ = sets_of(planned_, tools_);
     stages_.clear();
 }
 
@@ -124,7 +147,12 @@ void Setups::keep_only(std::span<const Piece> pieces) {
 }
 
 bool Setups::fits(const Piece& piece) {
-    return once(stages_of(piece).fits, [&] { return fits_cell_and_machine(piece, planned_); });
+    return once(stages_of(piece).fits, [&] {
+        const std::vector<ToolNumbers> sets = tools_for(piece);
+        return std::any_of(sets.begin(), sets.end(), [&](const ToolNumbers& tools) {
+            return fits_cell_and_machine(piece, with_tools(cell_, tools));
+        });
+    });
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {
@@ -141,11 +169,11 @@ bool Setups::is_machinable(const Piece& piece) {
 
 bool Setups::find_whether_machinable(const Piece& piece) {
     if (!cell_.machine) return true;
-    const double low = low_piece_height(planned_);
     const Vec3 size = oriented_box(piece.mesh->points).size();
-    if (std::max({size.x, size.y, size.z}) <= low) return true;
+    const auto low = [&](const ToolNumbers& tools) { return low_piece_height(with_tools(cell_, tools)); };
+    if (std::max({size.x, size.y, size.z}) <= low(tools_for(piece).front())) return true;
     const auto is_low_enough = [&](const Setup& setup) {
-        if (setup.box.max.z <= low) return true;
+        if (setup.box.max.z <= low(setup.tools)) return true;
         return setup.access.unreachable_share() - unreachable_without_holder(piece).share <= max_by_machine;
     };
     if (!is_low_enough(mapped(piece).setup())) return false;
@@ -153,13 +181,20 @@ bool Setups::find_whether_machinable(const Piece& piece) {
     return placed.fits() && is_low_enough(placed.setup());
 }
 
+// With the first set of tools that leaves no more out of reach than may be, or that which leaves least.
 UnreachableSurface Setups::sampled_of(const Piece& piece) const {
     SetupOptions options = options_for(piece);
     options.mapped = 0;
     options.takes_kept_samples = !count_narrow_;
     options.samples = PieceAccessOptions{}.samples;
-    const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools_for(piece)), options);
-    return unreachable_surface(choice.setups.front());
+    std::optional<UnreachableSurface> best;
+    for (const ToolNumbers& tools : tools_for(piece)) {
+        const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools), options);
+        const UnreachableSurface own = unreachable_surface(choice.setups.front());
+        if (!best || own.share < best->share) best = own;
+        if (is_good(choice.setups.front())) break;
+    }
+    return *best;
 }
 
 const SetupOrder* Setups::order_for(const Piece& piece) const {
@@ -187,28 +222,56 @@ SetupOptions Setups::options_for(const Piece& piece) const {
     return options;
 }
 
-const std::vector<std::uint16_t>& Setups::tools_for(const Piece& piece) const {
+std::vector<ToolNumbers> Setups::tools_for(const Piece& piece) const {
     const SetupOrder* order = order_for(piece);
-    return order != nullptr && !order->tools.empty() ? order->tools : tools_;
+    if (order == nullptr || order->tools.empty()) return tool_sets_;
+    return {order->tools};
 }
 
-MappedSetup Setups::with_stock_fit(SetupChoice choice, const Piece& piece, const Cell& planned) const {
-    for (Setup& setup : choice.setups) setup.tools = tools_for(piece);
-    StockFit fit = check_stock_fit(choice.setups.front(), planned);
-    return {std::move(choice), std::move(fit)};
+bool Setups::is_good(const Setup& setup) const {
+    return !cell_.machine || !setup.access.exceeds(cell_.machine->max_unreachable);
 }
 
+MappedSetup Setups::mapped_with(const ToolNumbers& tools, const Piece& piece) const {
+    const Cell planned = with_tools(cell_, tools);
+    return with_stock_fit(choose_setup(piece, planned, options_for(piece)), tools, planned);
+}
+
+// Of the sets of tools as in sampled_of(), if the block fits.
 MappedSetup Setups::mapped_of(const Piece& piece) const {
-    const Cell planned = with_tools(cell_, tools_for(piece));
-    return with_stock_fit(choose_setup(piece, planned, options_for(piece)), piece, planned);
+    const std::vector<ToolNumbers> sets = tools_for(piece);
+    MappedSetup best = mapped_with(sets.front(), piece);
+    const auto key = [](const MappedSetup& m) {
+        return std::pair(!m.stock_fit.fits(), m.setup().access.unreachable_share());
+    };
+    for (std::size_t i = 1; i < sets.size() && !(best.stock_fit.fits() && is_good(best.setup())); ++i) {
+        MappedSetup longer = mapped_with(sets[i], piece);
+        if (key(longer) < key(best)) best = std::move(longer);
+    }
+    return best;
 }
 
-PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const {
-    if (!cell_.machine) return {mapped, {}};
-    const Cell planned = with_tools(cell_, tools_for(piece));
+PlacedSetup Setups::placed_with(const MappedSetup& mapped, const Piece& piece, const Context& context) const {
+    const ToolNumbers& tools = mapped.setup().tools;
+    const Cell planned = with_tools(cell_, tools);
     const ReachableSetupOptions options{options_for(piece), cell_.machine->max_unreachable};
     ReachableSetup reachable = reachable_setup(piece, mapped.choice, planned, options, context);
-    return {with_stock_fit(std::move(reachable.choice), piece, planned), std::move(reachable.reachability)};
+    return {with_stock_fit(std::move(reachable.choice), tools, planned), std::move(reachable.reachability)};
+}
+
+// With other tools where the arm does not hold every pose with those of the mapped setup, or only with too much out of
+// reach.
+PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const {
+    if (!cell_.machine) return {mapped, {}};
+    PlacedSetup best = placed_with(mapped, piece, context);
+    const auto key = [](const PlacedSetup& p) { return std::pair(!p.fits(), p.setup().access.unreachable_share()); };
+    for (const ToolNumbers& tools : tools_for(piece)) {
+        if (best.fits() && is_good(best.setup())) break;
+        if (tools == mapped.setup().tools) continue;
+        PlacedSetup other = placed_with(mapped_with(tools, piece), piece, context);
+        if (key(other) < key(best)) best = std::move(other);
+    }
+    return best;
 }
 
 }  // namespace qchopper

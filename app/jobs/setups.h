@@ -37,19 +37,23 @@ struct PlacedSetup : MappedSetup {
     bool fits() const { return stock_fit.fits() && machine_reachability.holds(); }
 };
 
+using ToolNumbers = std::vector<std::uint16_t>;  // empty: all of the cell
+
 class Setups {
  public:
-    explicit Setups(Cell cell) : cell_(std::move(cell)), planned_(cell_) {}
+    explicit Setups(Cell cell);
 
     const Cell& cell() const { return cell_; }
     // The same with the tools of set_tools() alone.
     const Cell& planned() const { return planned_; }
+    // planned() with the shortest of the tools that are there in several stick-outs.
+    Cell with_shortest_tools() const;
 
     // What the operator decided, in place of what was decided before. A change forgets all that is known of pieces.
     void set_orders(std::vector<SetupOrder> orders);
     // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools()
     // (cam/cell/job_tools.h) throws.
-    void set_tools(std::vector<std::uint16_t> tools);
+    void set_tools(ToolNumbers tools);
     // Whether surface that is too narrow for the smallest tool counts as out of reach.
     void set_count_narrow(bool count_narrow);
     bool counts_narrow() const { return count_narrow_; }
@@ -97,16 +101,20 @@ class Setups {
                  const Context& context, const Make& make);
     const SetupOrder* order_for(const Piece& piece) const;
     SetupOptions options_for(const Piece& piece) const;
-    const std::vector<std::uint16_t>& tools_for(const Piece& piece) const;
-    MappedSetup with_stock_fit(SetupChoice choice, const Piece& piece, const Cell& planned) const;
+    // The sets of tools that a piece may be milled with, the shortest first.
+    std::vector<ToolNumbers> tools_for(const Piece& piece) const;
+    bool is_good(const Setup& setup) const;
+    MappedSetup mapped_with(const ToolNumbers& tools, const Piece& piece) const;
     MappedSetup mapped_of(const Piece& piece) const;
+    PlacedSetup placed_with(const MappedSetup& mapped, const Piece& piece, const Context& context) const;
     PlacedSetup placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const;
     UnreachableSurface sampled_of(const Piece& piece) const;
     bool find_whether_machinable(const Piece& piece);
 
     Cell cell_;
-    std::vector<std::uint16_t> tools_;
+    ToolNumbers tools_;
     Cell planned_;
+    std::vector<ToolNumbers> tool_sets_;  // of planned_
     std::vector<SetupOrder> orders_;
     bool count_narrow_ = false;
     // By the owner of the mesh, which is never another one's, as an address could be.

@@ -98,7 +98,7 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
                         share_word(access.further->gained_share) + " more.");
     }
     if (!chosen.tools.empty()) {
-        lines.push_back("Of the cell's tools it is carved with " + describe_tools(chosen.tools) + " alone, by order.");
+        lines.push_back("Of the cell's tools it is carved with " + describe_tools(chosen.tools) + " alone.");
     }
     if (chosen.workholding) {
         for (const std::string& line : qchopper::lines(*chosen.workholding)) lines.push_back(line);

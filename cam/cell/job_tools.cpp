@@ -1,11 +1,13 @@
-// Copies numbers; one pass over the tools.
+// Copies numbers; one pass over the tools, or one for each tool.
 
 #include "cam/cell/job_tools.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -91,6 +93,29 @@ Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers) {
     }
     allowed.tool = job_tool(tools.front());
     return allowed;
+}
+
+std::vector<std::vector<std::uint16_t>> tool_sets(const std::vector<CuttingTool>& tools) {
+    // Of each tool, how many stick-outs of its kind are shorter, and how many there are.
+    std::vector<std::size_t> shorter(tools.size());
+    std::vector<std::size_t> of_kind(tools.size());
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        std::set<double> lengths;
+        for (const CuttingTool& tool : tools) {
+            if (tool.shape == tools[i].shape && tool.diameter == tools[i].diameter) lengths.insert(tool.stick_out);
+        }
+        of_kind[i] = lengths.size();
+        shorter[i] = static_cast<std::size_t>(std::distance(lengths.begin(), lengths.find(tools[i].stick_out)));
+    }
+    const std::size_t most = tools.empty() ? 1 : *std::ranges::max_element(of_kind);
+    if (most == 1) return {{}};
+    std::vector<std::vector<std::uint16_t>> sets(most);
+    for (std::size_t s = 0; s < most; ++s) {
+        for (std::size_t i = 0; i < tools.size(); ++i) {
+            if (shorter[i] == std::min(s, of_kind[i] - 1)) sets[s].push_back(tools[i].number);
+        }
+    }
+    return sets;
 }
 
 std::size_t roughing_tool(const std::vector<CuttingTool>& tools) {

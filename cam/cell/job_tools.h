@@ -23,6 +23,11 @@ std::vector<Tool> tools_of(const Cell& cell);
 // machine, has no tool of a number, or if none of the tools is ball-ended, because others do not finish. O(tools).
 Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers);
 
+// Sets of tool numbers, each with one stick-out of every kind of tool (shape and diameter): the shortest of each kind
+// first, then the next longer ones, last the longest. Of a kind with fewer stick-outs than others its longest stays.
+// One empty set, which stands for all tools, where no kind has two. O(tools^2).
+std::vector<std::vector<std::uint16_t>> tool_sets(const std::vector<CuttingTool>& tools);
+
 // Indices of the tools that a program uses where it is not told others; of equal ones the first. O(tools).
 // The flat or ball-ended one of the largest diameter, rather flat. Throws InputError (config) if there is none.
 std::size_t roughing_tool(const std::vector<CuttingTool>& tools);

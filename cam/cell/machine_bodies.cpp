@@ -61,6 +61,37 @@ std::vector<AxisBody> bodies_on_axis(const CuttingTool& tool, const Spindle& spi
     return bodies;
 }
 
+bool is_about_tool_axis(const LinkCapsule& link, const Robot& robot, const Spindle& spindle) {
+    constexpr double rounding = 1e-6;  // mm
+    const Pose& nose = spindle.spindle_in_flange;
+    const double cosine = nose.row[2][spindle.tool_axis == ToolAxis::z ? 2 : 0];  // of the tool axis to axis 6
+    if (std::hypot(nose.shift.x, nose.shift.y) > rounding || cosine < 1 - 1e-12) return false;
+    const ArmGeometry& arm = robot.geometry;
+    const auto is_on_axis_6 = [&](Vec3 p) { return std::hypot(p.x - arm.a1 - arm.a2, p.y - arm.b) < rounding; };
+    return link.link == 5 && is_on_axis_6(link.shape.from) && is_on_axis_6(link.shape.to);
+}
+
+std::vector<AxisBody> bodies_over_tip(const CuttingTool& tool, const CellMachine& machine, double around) {
+    std::vector<AxisBody> bodies = bodies_on_axis(tool, machine.spindle);
+    if (!machine.robot) return bodies;
+    const Robot& robot = *machine.robot;
+    const ArmGeometry& arm = robot.geometry;
+    const double flange_z = arm.c1 + arm.c2 + arm.c3 + arm.c4;  // while the arm stands straight up
+    const double flange = tool_arm(robot, machine.spindle, tool).tip_in_flange.shift.z;  // above the tip
+    for (const LinkCapsule& link : robot.capsules) {
+        if (!is_about_tool_axis(link, robot, machine.spindle)) continue;
+        const double radius = link.shape.radius + around;
+        const double inner = bodies.back().shape.radius;
+        if (radius <= inner) continue;
+        // The rounded end is inside of what is below it down to where it becomes wider.
+        const double end = flange + flange_z - std::max(link.shape.from.z, link.shape.to.z);
+        const double front = std::max(-bodies.back().shape.from.z, end - std::sqrt(radius * radius - inner * inner));
+        const double back = flange + flange_z - std::min(link.shape.from.z, link.shape.to.z) + radius;
+        bodies.push_back({BodyPart::link, along_axis(front, back - front, radius)});
+    }
+    return bodies;
+}
+
 LinkMotions link_motions(const ArmGeometry& arm, const Joints& joints, const Pose& base_in_cell) {
     const auto angle = [&](std::size_t axis) { return arm.sign[axis] * joints[axis] - arm.offset[axis]; };
     const Vec3 axis_2{arm.a1, 0, arm.c1};

@@ -37,6 +37,15 @@ struct MovingBodies {
 // tip to its stick-out with its whole diameter.
 std::vector<AxisBody> bodies_on_axis(const CuttingTool& tool, const Spindle& spindle);
 
+// Whether a link keeps its place about the tool axis whatever the joints: the wrist, link 5, whose capsule lies about
+// axis 6, where the tool axis is axis 6.
+bool is_about_tool_axis(const LinkCapsule& link, const Robot& robot, const Spindle& spindle);
+
+// bodies_on_axis(), and the wrist where it is about the tool axis and wider than the spindle: what comes over foam and
+// piece with the tip. The wrist is a cylinder that holds what of its capsule is outside of the spindle, and `around`
+// (mm) wider.
+std::vector<AxisBody> bodies_over_tip(const CuttingTool& tool, const CellMachine& machine, double around = 0);
+
 // The links k = 0..6 for joints: from where a point lay in the base while the arm stood straight up, all angles zero,
 // to where it is in the cell.
 using LinkMotions = std::array<Pose, axes_of_arm + 1>;

@@ -33,10 +33,9 @@ struct StockBlock {
     bool operator==(const StockBlock&) const = default;
 };
 
-// Foam that is milled off costs about as much machine time as 12 times as much of it that is not there: a square metre
-// of cap to mill as much as 12 litres. The fit over the programs of a bunny gives 0.6 to 0.9 h a square metre
-// and 0.063 h a litre.
-constexpr double foam_per_milled_cap = 12;  // mm
+// A square metre of cap to mill costs as much machine time as 280 litres of foam to mill off: 1.95 h a square metre and
+// 0.0068 h a litre, fitted to the programs of the 34 pieces of a bunny of 1.5 m (docs/measurements/proof.md).
+constexpr double foam_per_milled_cap = 280;  // mm
 
 constexpr double flush_step = 0.1;  // mm, of sizes along an axis with a flush face
 

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "cam/cell/machine_bodies.h"
+#include "cam/setup/placement/machine_reachability.h"
 #include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
@@ -24,6 +26,21 @@ HeightField without_heights(const HeightField& map) {
     HeightField empty{map.piece_in_field, map.cell, map.columns, map.rows, {}};
     empty.height.assign(map.height.size(), HeightField::nothing);
     return empty;
+}
+
+struct Extent {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+};
+
+Extent extent_of(const HeightField& map) {
+    Extent extent;
+    for (const float height : map.height) {
+        if (height == HeightField::nothing) continue;
+        extent.lowest = std::min(extent.lowest, static_cast<double>(height));
+        extent.highest = std::max(extent.highest, static_cast<double>(height));
+    }
+    return extent;
 }
 
 double narrowest(const ToolBody& body) {
@@ -65,13 +82,15 @@ const CuttingTool& longest_tool(std::span<const CuttingTool> tools) {
     });
 }
 
-ToolBody tool_body(const CuttingTool& tool, const Spindle& spindle) {
-    ToolBody body{tool.stick_out, tool.holder};
-    if (spindle.body_offset > 0) {
-        const double diameter = tool.holder.empty() ? tool.diameter : tool.holder.back().diameter;
-        body.steps.push_back({diameter, spindle.body_offset});
+ToolBody tool_body(const CuttingTool& tool, const CellMachine& machine) {
+    ToolBody body{tool.stick_out, {}};
+    const std::vector<AxisBody> bodies = bodies_over_tip(tool, machine, rule_of(PoseCheck::arm_to_block).needed);
+    double front = tool.stick_out;
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        const double end = i + 1 < bodies.size() ? -bodies[i + 1].shape.from.z : -bodies[i].shape.to.z;
+        body.steps.push_back({2 * bodies[i].shape.radius, end - front});
+        front = end;
     }
-    if (spindle.body_radius > 0) body.steps.push_back({2 * spindle.body_radius, spindle.body_length});
     return body;
 }
 
@@ -92,9 +111,11 @@ bool raise_to_holder_clearance(HeightField& map, const ToolBody& tool, const Pos
     const auto factor = static_cast<std::size_t>(std::max(2.0, wanted));
     const HeightField wide = coarser(map, static_cast<double>(factor));
     HeightField limit = without_heights(wide);
+    const Extent heights = extent_of(map);
     double above = tool.stick_out;
     for (const HolderStep& step : tool.steps) {
-        raise_over_disc(limit, wide, 0.5 * step.diameter, above);
+        // What begins higher above every tip than the map is high meets nothing.
+        if (heights.highest - above > heights.lowest) raise_over_disc(limit, wide, 0.5 * step.diameter, above);
         above += step.length;
     }
     const FloorLimit floor(map, tool, piece_in_setup);

@@ -13,23 +13,23 @@
 #include <vector>
 
 #include "base/pose.h"
-#include "cam/cell/cutting_tool.h"
-#include "cam/cell/robot.h"
+#include "cam/cell/cell.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
 
-// The tool that goes deepest, with what is behind it. The tool itself, up to its stick-out, has the radius zero here.
+// A tool with what is behind it. The tool itself, up to its stick-out, has the radius zero here.
 struct ToolBody {
     double stick_out = 0;
-    std::vector<HolderStep> steps;  // of the holder and then of the spindle's body, upwards from stick_out
+    std::vector<HolderStep> steps;  // of the holder, the spindle's body and the wrist, upwards from stick_out
 };
 
 // Of the tools of a cell, without its drills, the one with the largest stick-out, the first of equal ones.
 // Precondition: there is one tool that is no drill.
 const CuttingTool& longest_tool(std::span<const CuttingTool> tools);
-// What lies between the spindle nose and the front of the spindle's body is taken to be as wide as the holder there.
-ToolBody tool_body(const CuttingTool& tool, const Spindle& spindle);
+// Holder, spindle and wrist as bodies_over_tip() has them, each up to the front of the next. The wrist keeps the distance
+// of the arm (PoseCheck::arm_to_block) to foam and piece.
+ToolBody tool_body(const CuttingTool& tool, const CellMachine& machine);
 
 // Of the tip in the setup, so that no step comes below z = 0: for the angle between tool axis and z.
 double min_tip_z(const ToolBody& tool, double sine, double cosine);

@@ -13,7 +13,7 @@ LimitingTools limiting_tools(const Cell& cell) {
     for (const CuttingTool& tool : cell.machine->tools) {
         if (!is_drill(tool)) smallest = std::min(smallest, tool.diameter);
     }
-    return {tool_body(longest_tool(cell.machine->tools), cell.machine->spindle), smallest / 2};
+    return {tool_body(longest_tool(cell.machine->tools), *cell.machine), smallest / 2};
 }
 
 }  // namespace qchopper

@@ -41,7 +41,7 @@ struct Setup {
     Pose piece_in_setup;
     Box box;  // of the piece in setup coordinates
 
-    // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
+    // Numbers of the tools that may be used, by order of the operator or for their stick-out; empty: all of the cell.
     std::vector<std::uint16_t> tools;
 
     double spoil = 0;  // thickness of the layer under the piece that stays on the table

@@ -122,7 +122,7 @@ class HolePlanner {
     // With the tip as deep as it goes; higher up the same room is needed and less. Not by holder_clearance.h: no map
     // has the axis of the hole.
     bool is_holder_in_stock(const DrillHole& hole, const CuttingTool& tool, double deep) const {
-        const ToolBody body = tool_body(tool, machine_.spindle);
+        const ToolBody body = tool_body(tool, machine_);
         const double highest = height_of_retract(hole);
         const auto is_stock = [&](Vec3 p) { return stock_.may_be_stock(p); };
         double from = body.stick_out - deep - options_.clear;

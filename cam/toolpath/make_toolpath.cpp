@@ -136,7 +136,7 @@ class ToolpathMaker {
         return map;
     }
 
-    ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
+    ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_); }
 
     // Fills what is the same for all kinds of operation.
     MillingSpace space_of(const HeightField& frame, const Operation& operation) const {

@@ -42,7 +42,7 @@ FinishedAreas finished_areas(const Setup& setup, const TriangleMesh& mesh, const
             const double floor_z = finishing_floor(setup, setup.tool_axis(d), 0.5 * tool.diameter);
             const HeightField piece = piece_height_field(setup, mesh, d, {judged_cell, floor_z, tool.diameter});
             HeightField cl = cl_surface(piece, tool);
-            raise_to_holder(cl, piece, tool_body(tool, machine.spindle), setup.piece_in_setup);
+            raise_to_holder(cl, piece, tool_body(tool, machine), setup.piece_in_setup);
             left.take(remaining_surface(cl, tool), scallop + judged_cell, 0, 0, true);
         }
         const double finished = areas.all * left.share_within(0);

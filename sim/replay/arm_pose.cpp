@@ -75,9 +75,11 @@ bool ArmPoses::meets_table(const Shape& shape) const {
            (standing_.rotary && distance(shape, *standing_.rotary) <= min_gap);
 }
 
-void ArmPoses::check_bodies(const Joints& joints, const CuttingTool& tool, SourcePlace place) {
+void ArmPoses::check_bodies(const Joints& joints, const CuttingTool& tool, const PlacedBox& block, bool is_milling,
+                            SourcePlace place) {
     const MovingBodies bodies = bodies_at(cell_, tool, joints);
     check_links(bodies, place);
+    check_block(bodies, block, is_milling, place);
     for (const AxisBody& body : bodies.on_axis) check_axis_body(bodies, body, place);
 }
 
@@ -96,6 +98,15 @@ void ArmPoses::check_links(const MovingBodies& bodies, SourcePlace place) {
         for (const PlacedBox& box : standing_.obstacles) {
             if (distance(link.shape, box) <= min_gap) collide(name + " meets an obstacle", place);
         }
+    }
+}
+
+void ArmPoses::check_block(const MovingBodies& bodies, const PlacedBox& block, bool is_milling, SourcePlace place) {
+    const CellMachine& machine = *cell_.machine;
+    for (std::size_t i = 0; i < bodies.links.size(); ++i) {
+        if (is_milling && is_about_tool_axis(machine.robot->capsules[i], *machine.robot, machine.spindle)) continue;
+        if (distance(bodies.links[i].shape, block) > min_gap) continue;
+        collide("link " + std::to_string(bodies.links[i].link) + " meets the block", place);
     }
 }
 

@@ -28,14 +28,18 @@ class ArmPoses {
     void check_joints(const Joints& joints, SourcePlace place);
     // Only while the arm follows a line: a PTP may pass a singularity.
     void check_singularity(const Joints& joints, SourcePlace place);
-    // Links, spindle, holder and tool against table, floor, obstacles and links.
-    void check_bodies(const Joints& joints, const CuttingTool& tool, SourcePlace place);
+    // Links, spindle, holder and tool against table, floor, obstacles and links, and links against the block as it was
+    // before the program, where `block` is given in the cell. While foam is milled the wrist, which comes over the tip
+    // as the spindle does, is left to mill_stock.h.
+    void check_bodies(const Joints& joints, const CuttingTool& tool, const PlacedBox& block, bool is_milling,
+                      SourcePlace place);
     // Those joints of `flange` (in the robot's base) on the configuration of `now` that are nearest to it; nothing if
     // there are none.
     std::optional<Joints> follow(const Pose& flange, const Joints& now) const;
 
  private:
     void check_links(const MovingBodies& bodies, SourcePlace place);
+    void check_block(const MovingBodies& bodies, const PlacedBox& block, bool is_milling, SourcePlace place);
     void check_axis_body(const MovingBodies& bodies, const AxisBody& body, SourcePlace place);
     void collide(const std::string& what, SourcePlace place);
     template <class Shape>

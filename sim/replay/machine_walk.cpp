@@ -92,6 +92,7 @@ class Walk {
         return machine_.rotary_table ? table_at(table_angle_) * setup_in_table_
                                      : scene_.orientations[direction_].setup_in_cell;
     }
+    PlacedBox block_in_cell() const { return placed(setup_in_cell(), scene_.block); }
     void enter(const ProgramChunk& chunk);
     void take_tool(std::uint16_t number, SourcePlace place);
     void check_asked(const CuttingTool& tool, SourcePlace place);
@@ -310,7 +311,7 @@ JointSweep Walk::sweep_to(const ProgramStep& step, SourcePlace place) {
         for (std::size_t axis = 0; axis < axes_of_arm; ++axis)
             joints_[axis] = from[axis] + share * (to[axis] - from[axis]);
         if (step.e1) table_angle_ = table_from + share * (*step.e1 - table_from);
-        if (k % 4 == 0 || k == count) arm_.check_bodies(joints_, tool(), place);
+        if (k % 4 == 0 || k == count) arm_.check_bodies(joints_, tool(), block_in_cell(), false, place);
         sweep.poses.push_back(tip_pose());
     }
     joints_ = to;
@@ -448,7 +449,7 @@ AxisMotion Walk::follow_line(const Pose& from, const Pose& to, const Pose& tool_
         arm_.check_singularity(joints_, step.place);
         since_bodies_ += way / static_cast<double>(count);
         if (since_bodies_ < pose_step) continue;
-        arm_.check_bodies(joints_, tool(), step.place);
+        arm_.check_bodies(joints_, tool(), block_in_cell(), true, step.place);
         since_bodies_ = 0;
     }
     return motion;

@@ -185,12 +185,14 @@ void StockMilling::check_feed(const TipLine& line, const CuttingTool& tool) {
 }
 
 void StockMilling::check_holder(const TipLine& line, const CuttingTool& tool) {
-    for (const AxisBody& body : bodies_on_axis(tool, machine_.spindle)) {
+    for (const AxisBody& body : bodies_over_tip(tool, machine_)) {
         if (body.part == BodyPart::tool) continue;
         const double into =
             stock_model_.disc_contact(line.orientation, body.shape.radius, -body.shape.from.z, line.from, line.to);
         if (into <= written) continue;
-        const std::string what = body.part == BodyPart::spindle ? "the spindle" : "the holder";
+        const std::string what = body.part == BodyPart::link      ? "the wrist"
+                                 : body.part == BodyPart::spindle ? "the spindle"
+                                                                  : "the holder";
         log_.add(FindingKind::holder_contact, line.place, into, into,
                  [&] { return what + " comes " + fixed(into, 2) + " mm into the foam"; });
     }
@@ -230,7 +232,7 @@ void StockMilling::take_sweep(const JointSweep& sweep) {
     };
     const CuttingTool& tool = machine_.tools[sweep.tool];
     const Cutter& cutter = cutters_[sweep.tool];
-    const std::vector<AxisBody> bodies = bodies_on_axis(tool, machine_.spindle);
+    const std::vector<AxisBody> bodies = bodies_over_tip(tool, machine_);
     for (const TipPose& pose : sweep.poses) {
         // The body of the tool without its rounded end, 0.01 mm smaller, and the tip.
         const double straight_from = cutter.shape == ToolShape::flat ? written : std::max(cutter.corner, written);
@@ -240,7 +242,7 @@ void StockMilling::take_sweep(const JointSweep& sweep) {
         for (const AxisBody& body : bodies) {
             if (body.part == BodyPart::tool) continue;
             if (!is_body_in_stock(pose, -body.shape.from.z, -body.shape.to.z, body.shape.radius)) continue;
-            return find(FindingKind::holder_contact, "holder or spindle comes into the foam");
+            return find(FindingKind::holder_contact, "holder, spindle or wrist comes into the foam");
         }
     }
 }

@@ -2,6 +2,8 @@
 
 #include "cam/job/sheet/program_section.h"
 
+#include <set>
+
 #include "base/text.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/job_program.h"
@@ -25,7 +27,7 @@ std::string chunks_of(const JobProgram& program) {
 std::string left_out_of(const JobProgram& program, const std::vector<std::uint16_t>& allowed) {
     std::string html;
     if (!allowed.empty()) {
-        html += paragraph("By order of the operator it is carved with " + describe_tools(allowed) + " alone.");
+        html += paragraph("Of the cell's tools it is carved with " + describe_tools(allowed) + " alone.");
     }
     const std::string moves = describe(program.moves_left_out);
     if (!moves.empty()) html += paragraph("Left out: " + moves + ".");
@@ -36,6 +38,29 @@ std::string left_out_of(const JobProgram& program, const std::vector<std::uint16
                         right(tool.orientation ? std::to_string(*tool.orientation + 1) : "all"), word(tool.because)});
     }
     return html + table(rows) + paragraph("The proof says how much of the surface is given up for that.");
+}
+
+// Tools that bend and chatter more than others, and where they are used.
+std::string slender_tools_of(const JobProgram& program, const Cell& cell) {
+    constexpr double slender = 10;  // diameters
+    std::string html;
+    if (!cell.machine) return html;
+    for (const CuttingTool& tool : cell.machine->tools) {
+        if (is_drill(tool) || tool.stick_out <= slender * tool.diameter) continue;
+        std::set<std::size_t> orientations;
+        for (const JobChunk& chunk : program.chunks) {
+            if (chunk.tool == tool.number) orientations.insert(chunk.orientation + 1);
+        }
+        if (orientations.empty()) continue;
+        std::string where;
+        for (const std::size_t orientation : orientations) {
+            where += (where.empty() ? " " : ", ") + std::to_string(orientation);
+        }
+        html += paragraph("Tool " + std::to_string(tool.number) + " sticks out by " +
+                          fixed(tool.stick_out / tool.diameter, 1) + " diameters, in orientation" +
+                          (orientations.size() > 1 ? "s" : "") + where + ": watch for chatter.");
+    }
+    return html;
 }
 
 std::string proof_of(const ProgramInput& input) {
@@ -85,7 +110,8 @@ std::string program_section(const JobInput& input) {
         return section(title, paragraph("This job holds no robot program: " + input.no_program_because + "."));
     }
     return section(title, left_out_of(input.program->program, input.setup.tools) + proof_of(*input.program) +
-                              time_of(input.program->proof) + chunks_of(input.program->program));
+                              time_of(input.program->proof) + slender_tools_of(input.program->program, input.cell) +
+                              chunks_of(input.program->program));
 }
 
 }  // namespace qchopper

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cam/setup/limiting_tools.h"
+#include "cam/setup/placement/foam_left.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -321,22 +322,58 @@ CellMask shown_flush_caps(const HeightField& map, const Setup& setup) {
     return shown;
 }
 
-// One region for each connected part of the CL surface. No tip stands on a cap that is sawn.
-void add_tips(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis_in_piece, const ToolBody& tool,
-              const ClHeights& heights, const PoseOptions& options, OrientationPoses& poses) {
+// The tips of an orientation, a cell each. None stands on a cap that is sawn.
+HeightField tips_of(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis_in_piece, const ToolBody& tool,
+                    const PoseOptions& options) {
     HeightField map =
         height_field(mesh, tool_axis_in_piece, options.map_cell > 0 ? options.map_cell : options.step / 8);
-    if (heights.tool_axis.z > upright) fill_with_base(map, setup.piece_in_setup);
+    if (rotate(setup.piece_in_setup, tool_axis_in_piece).z > upright) fill_with_base(map, setup.piece_in_setup);
     const CellMask sawn = shown_flush_caps(map, setup);
     raise_to_holder_clearance(map, tool, setup.piece_in_setup);
     for (std::size_t i = 0; i < sawn.size(); ++i) {
         if (sawn[i] != 0) map.height[i] = HeightField::nothing;
     }
-    const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_field);
-    for (PoseRegion& region : ClSurface(map, map_in_setup, heights, options.step).regions(options)) {
-        poses.regions.push_back(std::move(region));
+    return map;
+}
+
+bool is_inside(const Box& box, Vec3 p) {
+    for (int i = 0; i < 3; ++i) {
+        if (!(p[i] > box.min[i] && p[i] < box.max[i])) return false;
+    }
+    return true;
+}
+
+// Leaves tips where foam stands over them, up to where their tool leaves the block, and tips up to a step beside.
+void keep_tips_under_foam(HeightField& map, const Pose& map_in_setup, const Box& block, const FoamLeft& foam,
+                          double step) {
+    const Vec3 tool_axis = column(map_in_setup, 2);
+    const auto side = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(step / map.cell)));
+    const std::size_t columns = (map.columns + side - 1) / side;
+    const std::size_t rows = (map.rows + side - 1) / side;
+    CellMask is_needed(columns * rows, 0);
+    for (std::size_t i = 0; i < map.height.size(); ++i) {
+        std::uint8_t& needed = is_needed[i / map.columns / side * columns + i % map.columns / side];
+        const auto height = static_cast<double>(map.height[i]);
+        if (needed != 0 || !(std::abs(height) < highest_tip)) continue;
+        Vec3 point = apply(map_in_setup, {map.cell * (number(i % map.columns) + 0.5),
+                                          map.cell * (number(i / map.columns) + 0.5), height + map.cell});
+        for (; is_inside(block, point) && needed == 0; point = point + 0.5 * step * tool_axis) {
+            needed = foam.stands_at(point) ? 1 : 0;
+        }
+    }
+    for (std::size_t i = 0; i < map.height.size(); ++i) {
+        const std::size_t column = i % map.columns / side;
+        const std::size_t row = i / map.columns / side;
+        bool is_near = false;
+        for (std::size_t r = row > 0 ? row - 1 : 0; r < std::min(rows, row + 2); ++r) {
+            for (std::size_t c = column > 0 ? column - 1 : 0; c < std::min(columns, column + 2); ++c) {
+                is_near = is_near || is_needed[r * columns + c] != 0;
+            }
+        }
+        if (!is_near) map.height[i] = HeightField::nothing;
     }
 }
+
 
 }  // namespace
 
@@ -345,12 +382,24 @@ std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMe
     assert(cell.machine && !setup.access.orientations.empty() && options.step > 0);
     const ToolBody tool = *limiting_tools(cell).longest;
     const Box block = setup.milled_box();
+    FoamLeft foam(setup.piece_in_setup);
     std::vector<OrientationPoses> all;
     for (const ToolOrientation& orientation : setup.access.orientations) {
         const Vec3 tool_axis = setup.tool_axis(orientation);
         const ClHeights heights = cl_heights(block, tool, tool_axis, cell.clearance);
-        OrientationPoses poses{tool_axis, {block_region(block, heights, options)}};
-        if (!options.block_only) add_tips(setup, mesh, orientation.tool_axis, tool, heights, options, poses);
+        const bool is_first = all.empty();
+        OrientationPoses poses{tool_axis, {}};
+        if (is_first || options.block_only) poses.regions.push_back(block_region(block, heights, options));
+        if (!options.block_only) {
+            HeightField map = tips_of(setup, mesh, orientation.tool_axis, tool, options);
+            const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_field);
+            HeightField needed = map;
+            if (!is_first) keep_tips_under_foam(needed, map_in_setup, block, foam, options.step);
+            for (PoseRegion& region : ClSurface(needed, map_in_setup, heights, options.step).regions(options)) {
+                poses.regions.push_back(std::move(region));
+            }
+            foam.remove_above(std::move(map), tool_axis.z > upright);
+        }
         all.push_back(std::move(poses));
     }
     return all;

@@ -3,8 +3,10 @@
 // mm, in setup coordinates. Of each direction the CL surface is the height field of the piece, raised to where the
 // holder of the tool with the largest stick-out allows the tip (holder_clearance.h); poses that no height of the tip
 // allows are left out, because no program goes there. The direction straight up also mills down to z = 0 beside the
-// piece. Further points are the corners and edges of the block above z = 0 on the sides that the tool comes to, where
-// roughing begins, and above all of these the height in which the tool comes and goes
+// piece. Directions are milled in their order: of a further one there are poses where the ones before leave foam
+// (foam_left.h), and a step beside. Further points are, of the first direction, the corners and edges of the block above
+// z = 0 on the sides that the tool comes to, where roughing begins, and above all of these the height in which the tool
+// comes and goes
 // (tests/cam/setup/placement/milling_poses_test.cpp).
 
 #pragma once
@@ -38,7 +40,9 @@ struct PoseRegion {
 
 struct OrientationPoses {
     Vec3 tool_axis;                   // unit, in setup coordinates, from the tip into the spindle
-    std::vector<PoseRegion> regions;  // the block's corners and edges first, then the parts of the CL surface
+    // The block's corners and edges first, of the first direction; then the parts of the CL surface. Of a further
+    // direction that has nothing to mill there is none.
+    std::vector<PoseRegion> regions;
     bool operator==(const OrientationPoses&) const = default;
 };
 
@@ -47,7 +51,7 @@ struct PoseOptions {
     double retract_step = 100;  // between poses above them
     double map_cell = 0;        // of the height field; 0: an eighth of the step
     bool extremes_only = false;
-    bool block_only = false;  // nothing of the piece: its mesh is not looked at
+    bool block_only = false;  // nothing of the piece, whose mesh is not looked at; corners and edges of all directions
 };
 
 // Of all directions of a setup, in their order. Preconditions: the cell has a machine, the mesh is that of the piece

@@ -188,7 +188,7 @@ void PoseJudge::judge_pose(const StandingBlock& block, double feed, const Joints
     judge_singularity(joints, tally);
     place_links(joints);
     if (tally.score() < bound) return;
-    judge_links(block, tally);
+    judge_links(block, true, tally);
     if (tally.score() < bound) return;
     judge_speed(joints, feed, tally);
 }
@@ -230,7 +230,7 @@ void PoseJudge::place_axis(Vec3 tip, Vec3 tool_axis) {
     }
 }
 
-void PoseJudge::judge_links(const StandingBlock& block, MarginTally& tally) const {
+void PoseJudge::judge_links(const StandingBlock& block, bool is_milling, MarginTally& tally) const {
     for (std::size_t i = 0; i < links_.size(); ++i) {
         const auto& [link, shape] = links_[i];
         const auto number = static_cast<std::uint16_t>(link);
@@ -241,7 +241,9 @@ void PoseJudge::judge_links(const StandingBlock& block, MarginTally& tally) cons
         }
         if (link == 0) continue;
         if (link > 1) tally.add(PoseCheck::arm_to_floor, lowest(shape) - standing_.floor_z, {number, 0});
-        tally.add(PoseCheck::arm_to_block, distance(shape, block.block), {number, 0});
+        if (!is_milling || !is_about_tool_axis(machine_.robot->capsules[i], *machine_.robot, machine_.spindle)) {
+            tally.add(PoseCheck::arm_to_block, distance(shape, block.block), {number, 0});
+        }
         if (standing_.table) tally.add(PoseCheck::arm_to_table, distance(shape, *standing_.table), {number, 0});
         if (standing_.rotary && tally.wants(PoseCheck::arm_to_table, lowest(shape) - highest(*standing_.rotary))) {
             tally.add(PoseCheck::arm_to_table, distance(shape, *standing_.rotary), {number, 0});
@@ -327,7 +329,7 @@ void PoseJudge::judge_joints(const StandingBlock& block, const Joints& joints, M
         judge_limit(axis, joints[axis], 1, tally);
     }
     place_links(joints);
-    judge_links(block, tally);
+    judge_links(block, false, tally);
     const Pose tip = arm_->base_in_cell * (forward(arm_->geometry, joints) * arm_->tip_in_flange);
     place_axis(tip.shift, -Vec3{tip.row[0].z, tip.row[1].z, tip.row[2].z});
     judge_tool(block, true, tally);

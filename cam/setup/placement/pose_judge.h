@@ -71,7 +71,8 @@ class PoseJudge {
     void judge_limit(std::size_t axis, double joint, std::uint16_t side, MarginTally& tally) const;
     void judge_singularity(const Joints& joints, MarginTally& tally) const;
     void judge_speed(const Joints& joints, double feed, MarginTally& tally) const;
-    void judge_links(const StandingBlock& block, MarginTally& tally) const;
+    // While foam is milled the wrist may come where it has been removed (bodies_over_tip()).
+    void judge_links(const StandingBlock& block, bool is_milling, MarginTally& tally) const;
     void judge_tool(const StandingBlock& block, bool is_home, MarginTally& tally) const;
     void finish_turning_axes(ArmPosture& posture, MarginTally& tally);
     // Fill links_ and on_axis_.

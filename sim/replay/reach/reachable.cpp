@@ -74,15 +74,15 @@ SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, dou
     return map;
 }
 
-// A flat disc above the tip, where holder or spindle begin.
+// A flat disc above the tip, where holder, spindle or wrist begin.
 struct BodyDisc {
     double radius = 0;
     double above = 0;
 };
 
-std::vector<BodyDisc> discs_of(const CuttingTool& tool, const Spindle& spindle) {
+std::vector<BodyDisc> discs_of(const CuttingTool& tool, const CellMachine& machine) {
     std::vector<BodyDisc> discs;
-    for (const AxisBody& body : bodies_on_axis(tool, spindle)) {
+    for (const AxisBody& body : bodies_over_tip(tool, machine)) {
         if (body.part != BodyPart::tool) discs.push_back({body.shape.radius, -body.shape.from.z});
     }
     return discs;
@@ -97,10 +97,10 @@ bool is_held_by(const CuttingTool& finer, const CuttingTool& tool) {
 
 // Whether holder and spindle of a tool hold those of a finer one wherever the finer one touches what the tool touches:
 // is_held_by() it, the finer one stands up to the difference of their radii beside the tool, and no lower.
-bool holds_all_of(const CuttingTool& tool, const CuttingTool& finer, const Spindle& spindle) {
+bool holds_all_of(const CuttingTool& tool, const CuttingTool& finer, const CellMachine& machine) {
     const double beside = 0.5 * (tool.diameter - finer.diameter);
-    const std::vector<BodyDisc> own = discs_of(tool, spindle);
-    const std::vector<BodyDisc> discs = discs_of(finer, spindle);
+    const std::vector<BodyDisc> own = discs_of(tool, machine);
+    const std::vector<BodyDisc> discs = discs_of(finer, machine);
     return std::all_of(discs.begin(), discs.end(), [&](const BodyDisc& disc) {
         return std::any_of(own.begin(), own.end(), [&](const BodyDisc& wide) {
             return wide.radius >= disc.radius + beside && wide.above <= disc.above;
@@ -120,7 +120,7 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTo
 // Raises tips to where flat discs above them, holder and spindle, are clear of the surface. Tips that are no_surface
 // are not asked for.
 void clear_holder(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
-    const std::vector<BodyDisc> discs = discs_of(tool, scene.cell->machine->spindle);
+    const std::vector<BodyDisc> discs = discs_of(tool, *scene.cell->machine);
     float lowest = -no_surface;
     float highest = no_surface;
     for (const float tip : tips.height) {
@@ -165,8 +165,9 @@ CellRange cells_around(const SurfaceMap& map, Vec3 point, double most) {
 }
 
 // Whether a tool reaches nothing that a finer one, whose closing is known to be limited by its holder or not, does not.
-bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_finer_limited, const Spindle& spindle) {
-    return is_held_by(finer, tool) && (!is_finer_limited || holds_all_of(tool, finer, spindle));
+bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_finer_limited,
+                  const CellMachine& machine) {
+    return is_held_by(finer, tool) && (!is_finer_limited || holds_all_of(tool, finer, machine));
 }
 
 }  // namespace
@@ -226,7 +227,7 @@ std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector
     for (const std::size_t tool : tools) {
         const bool is_needless = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
             return adds_nothing(machine.tools[tool], machine.tools[finer->tool], finer->map.is_limited,
-                                machine.spindle);
+                                machine);
         });
         if (!is_needless) closings.push_back(&of(orientation, tool, context));
     }
@@ -249,7 +250,7 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
         std::vector<std::pair<std::size_t, bool>> closed;  // tools, and whether their holders limit them
         for (const std::size_t tool : tools) {
             const bool is_needless = std::any_of(closed.begin(), closed.end(), [&](const auto& finer) {
-                return adds_nothing(machine.tools[tool], machine.tools[finer.first], finer.second, machine.spindle);
+                return adds_nothing(machine.tools[tool], machine.tools[finer.first], finer.second, machine);
             });
             if (is_needless || left.empty()) continue;
             context.check_cancelled();

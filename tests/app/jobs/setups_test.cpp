@@ -79,6 +79,27 @@ TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
     EXPECT_THROW(setups.set_tools({9}), InputError);
 }
 
+// A workshop that buys a longer tool of a kind keeps what it could mill before, and mills more.
+TEST(Setups, TakeTheShorterOfTwoToolsOfAKindUnlessThatReachesTooLittle) {
+    Cell cell = cell_named("kr120-r2500-pro-rotary");
+    for (const std::size_t of : {std::size_t{0}, std::size_t{7}}) {
+        CuttingTool longer = cell.machine->tools[of];
+        longer.number = static_cast<std::uint16_t>(9 + of);
+        longer.stick_out = 300;
+        cell.machine->tools.push_back(longer);
+    }
+    Setups setups(std::move(cell));
+    const std::vector<std::uint16_t> shorter{1, 2, 3, 4, 5, 6, 7, 8};
+    const std::vector<std::uint16_t> longest{2, 3, 4, 5, 6, 7, 9, 16};
+    EXPECT_EQ(setups.placed(frame(100)).setup().tools, shorter);
+    const PlacedSetup& deep = setups.placed(frame(270));
+    EXPECT_EQ(deep.setup().tools, longest) << "its shaft is deeper than 150";
+    EXPECT_TRUE(deep.fits());
+    Setups without(cell_named("kr120-r2500-pro-rotary"));
+    EXPECT_LT(deep.setup().access.holder_mm2 + 1e4, without.placed(frame(270)).setup().access.holder_mm2);
+    EXPECT_TRUE(setups.placed(frame(100)).setup().access == without.placed(frame(100)).setup().access);
+}
+
 TEST(Setups, ACellWithoutAMachineKnowsNoToolAndMillsWhatFits) {
     Setups setups(cell_named("foam-1"));
     EXPECT_TRUE(setups.is_machinable(frame(400)));

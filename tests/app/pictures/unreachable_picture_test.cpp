@@ -52,7 +52,7 @@ TEST(UnreachablePicture, APieceOfUnknownStatesIsDrawnAsReached) {
 // A cell with a wall at which the tool cannot lean: jobs are made with other directions than the best setup has.
 TEST(UnreachablePicture, OfAProjectIsThatOfTheSetupsThatJobsAreMadeOf) {
     Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
-    cell.machine->obstacles.push_back({"wall", {{1600, -500, 0}, {1700, 500, 1100}}});
+    cell.machine->obstacles.push_back({"wall", {{1400, -500, 0}, {1500, 500, 1100}}});
     const Piece ball = test_pieces::uncut(shapes::ball({0, 0, 0}, 80, 24));
     const std::vector<Piece> pieces{cut_piece(ball, {{0, 0, 1}, -56.3}, 1)->pieces.at(0)};
     Setups setups(std::move(cell));

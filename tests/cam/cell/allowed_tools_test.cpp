@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "base/error.h"
 
 namespace qchopper {
@@ -39,6 +41,26 @@ TEST(AllowedTools, ThatCannotCarveAreRefused) {
     EXPECT_NE(refusal(ready("foam-1"), {1}).find("no machine"), std::string::npos);
     EXPECT_EQ(describe_tools({4}), "tool 4");
     EXPECT_EQ(describe_tools({1, 2, 4}), "tools 1, 2 and 4");
+}
+
+TEST(ToolSets, AreOneWhereNoKindHasSeveralStickOuts) {
+    EXPECT_EQ(tool_sets(ready("kr60-ha").machine->tools), (std::vector<std::vector<std::uint16_t>>{{}}));
+    std::vector<CuttingTool> twins(2);
+    EXPECT_EQ(tool_sets(twins).size(), 1U) << "of equal tools there is no longer one";
+}
+
+TEST(ToolSets, HaveOneStickOutOfEveryKind) {
+    Cell cell = ready("kr60-ha");
+    std::vector<CuttingTool>& tools = cell.machine->tools;
+    for (const auto& [of, number, stick_out] :
+         {std::tuple(0, 9, 300.0), std::tuple(0, 10, 200.0), std::tuple(7, 11, 300.0)}) {
+        CuttingTool longer = tools[static_cast<std::size_t>(of)];
+        longer.number = static_cast<std::uint16_t>(number);
+        longer.stick_out = stick_out;
+        tools.push_back(longer);
+    }
+    EXPECT_EQ(tool_sets(tools), (std::vector<std::vector<std::uint16_t>>{
+                                    {1, 2, 3, 4, 5, 6, 7, 8}, {2, 3, 4, 5, 6, 7, 10, 11}, {2, 3, 4, 5, 6, 7, 9, 11}}));
 }
 
 }  // namespace

@@ -84,6 +84,46 @@ TEST(MachineBodies, OfAGantryHangAboveItsTip) {
     EXPECT_EQ(bodies.on_axis.back().shape.to.z, 300 + 200 + 350);
 }
 
+// Against the capsule of the link as the arm has it.
+TEST(MachineBodies, TheWristIsOverTheTipWhateverTheJoints) {
+    std::mt19937 random(6);
+    for (const char* const name : {"kr60-ha.toml", "irb6640-185-2.8.toml", "kr120-r2500-pro-rotary.toml"}) {
+        const Cell cell = ready_cell(name);
+        const CellMachine& machine = *cell.machine;
+        const CuttingTool& tool = machine.tools.front();
+        ASSERT_TRUE(is_about_tool_axis(machine.robot->capsules[2], *machine.robot, machine.spindle)) << name;
+        EXPECT_FALSE(is_about_tool_axis(machine.robot->capsules[1], *machine.robot, machine.spindle));
+        const std::vector<AxisBody> over_tip = bodies_over_tip(tool, machine);
+        const AxisBody& wrist = over_tip.back();
+        ASSERT_EQ(wrist.part, BodyPart::link);
+        EXPECT_EQ(wrist.shape.radius, machine.robot->capsules[2].shape.radius);
+        for (int i = 0; i < 50; ++i) {
+            const MovingBodies bodies = bodies_at(cell, tool, random_joints(machine.robot->ranges, random));
+            const AxisBody& spindle = bodies.on_axis.back();
+            const Vec3 tip = bodies.on_axis.front().shape.from;
+            const Vec3 up = normalized(spindle.shape.to - spindle.shape.from);
+            const Capsule& link = bodies.links[2].shape;
+            // Every point of the capsule's surface is in the spindle or in the wrist.
+            for (int k = 0; k < 200; ++k) {
+                std::normal_distribution<double> normal;
+                const Vec3 out = normalized(Vec3{normal(random), normal(random), normal(random)});
+                const Vec3 p = (k % 2 == 0 ? link.from : link.to) + link.radius * out;
+                const double above = dot(p - tip, up);
+                const double beside = norm(p - tip - above * up);
+                const bool is_in_wrist = above >= -wrist.shape.from.z - 1e-6 && above <= -wrist.shape.to.z + 1e-6;
+                EXPECT_TRUE(is_in_wrist || beside <= spindle.shape.radius + 1e-6) << name << " " << above;
+                EXPECT_LE(beside, wrist.shape.radius + 1e-6);
+            }
+        }
+    }
+}
+
+TEST(MachineBodies, AWristBesideTheToolAxisIsNotOverTheTip) {
+    Cell cell = ready_cell("kr60-ha.toml");
+    cell.machine->spindle.spindle_in_flange.shift.x = 1;
+    EXPECT_EQ(bodies_over_tip(cell.machine->tools.front(), *cell.machine).back().part, BodyPart::spindle);
+}
+
 TEST(MachineBodies, NeighboursMayTouchBothWays) {
     for (int a = 0; a < 8; ++a) {
         EXPECT_TRUE(may_touch(a, a));

@@ -411,14 +411,24 @@ TEST(ToolBody, HoldsTheHolderAndTheSpindle) {
     tool.diameter = 6;
     tool.stick_out = 100;
     tool.holder = {{20, 50}, {32, 40}};
-    Spindle spindle;
-    spindle.body_radius = 90;
-    spindle.body_length = 350;
-    const ToolBody body = tool_body(tool, spindle);
+    CellMachine gantry;
+    gantry.spindle.body_radius = 90;
+    gantry.spindle.body_length = 350;
+    const ToolBody body = tool_body(tool, gantry);
     EXPECT_EQ(body.stick_out, 100);
     EXPECT_EQ(body.steps, (std::vector<HolderStep>{{20, 50}, {32, 40}, {180, 350}}));
-    spindle.body_offset = 15;
-    EXPECT_EQ(tool_body(tool, spindle).steps, (std::vector<HolderStep>{{20, 50}, {32, 40}, {32, 15}, {180, 350}}));
+    gantry.spindle.body_offset = 15;
+    EXPECT_EQ(tool_body(tool, gantry).steps, (std::vector<HolderStep>{{20, 50}, {32, 55}, {180, 350}}));
+}
+
+TEST(ToolBody, EndsInTheWristWhereThatIsAboutTheToolAxis) {
+    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells/kr60-ha.toml");
+    const ToolBody body = tool_body(cell.machine->tools.front(), *cell.machine);
+    ASSERT_EQ(body.steps.size(), 3U);
+    EXPECT_EQ(body.steps[1].diameter, 180);
+    EXPECT_EQ(body.steps[2].diameter, 2 * (120 + 10)) << "with the distance that the arm keeps";
+    // The sphere of 130 about the flange, 550 above the tip, is as wide as the spindle 93.8 below it.
+    EXPECT_NEAR(200 + body.steps[1].length, 550 - std::sqrt(130.0 * 130 - 90 * 90), 1e-9);
 }
 
 }  // namespace

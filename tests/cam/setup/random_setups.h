@@ -46,7 +46,16 @@ inline BoxSetup box_setup(const Cell& cell, Vec3 size, const std::vector<Vec3>& 
     return made;
 }
 
-// Of a size up to that of the table, and up to three further directions with a tilt of at most 60 degrees.
+// Wider at its top, so that further orientations have something to mill.
+inline void undercut(BoxSetup& made) {
+    const double height = made.setup.box.max.z;
+    for (Vec3& p : made.mesh.points) {
+        const double share = 0.4 + 0.6 * p.z / height;
+        p = {share * p.x, share * p.y, p.z};
+    }
+}
+
+// A frustum on its smaller end, of a size up to that of the table, and up to three further directions with a tilt of at most 60 degrees.
 inline BoxSetup random_setup(const Cell& cell, std::mt19937& random) {
     const auto number = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -55,7 +64,9 @@ inline BoxSetup random_setup(const Cell& cell, std::mt19937& random) {
     std::vector<Vec3> directions{{0, 0, 1}};
     const int further = cell.machine->robot ? static_cast<int>(number(0, 4)) : 0;
     for (int i = 0; i < further; ++i) directions.push_back(tool_axis(number(10, 60), number(0, 360)));
-    return box_setup(cell, size, directions);
+    BoxSetup made = box_setup(cell, size, directions);
+    undercut(made);
+    return made;
 }
 
 struct ScanStep {

@@ -30,9 +30,9 @@ ReachableSetup held(const Piece& piece, const Cell& cell, const ReachableSetupOp
 }
 
 // A wall behind the table, seen from the arm.
-Cell with_wall(const std::string& name) {
+Cell with_wall(const std::string& name, double x = 1600) {
     Cell cell = ready_cell(name);
-    cell.machine->obstacles.push_back({"wall", {{1600, -500, 0}, {1700, 500, 1100}}});
+    cell.machine->obstacles.push_back({"wall", {{x, -500, 0}, {x + 100, 500, 1100}}});
     return cell;
 }
 
@@ -67,7 +67,7 @@ TEST(ReachableSetup, PlacesTheBlockOfTheBestSetup) {
 
 TEST(ReachableSetup, LeavesOutDirectionsThatAreNotHeld) {
     const Piece piece = ball_on_cap();
-    const Cell cell = with_wall("kr60-ha.toml");
+    const Cell cell = with_wall("kr60-ha.toml", 1400);
     ReachableSetupOptions options;
     options.setup.base = 1;
     const SetupChoice choice = choose_setup(piece, cell, options.setup);

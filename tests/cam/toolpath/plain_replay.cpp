@@ -50,7 +50,7 @@ void PlainReplay::meet(const CuttingTool& tool, std::size_t point, double above,
         return;
     }
     double from = tool.stick_out;
-    for (const HolderStep& step : tool_body(tool, cell_.machine->spindle).steps) {
+    for (const HolderStep& step : tool_body(tool, *cell_.machine).steps) {
         if (above > from && above < from + step.length && beside < 0.5 * step.diameter) {
             note(faults_.holder, "holder" + where);
         }
@@ -64,7 +64,7 @@ void PlainReplay::stand(const Operation& operation, Vec3 tip, MoveKind kind, boo
     if (tip.z < -setup_.spoil + 2 - 1e-9) note(faults_.below_spoil, "below the spoil layer");
     double reach = 0.5 * tool.diameter;
     double length = tool.stick_out;
-    const std::vector<HolderStep> steps = tool_body(tool, cell_.machine->spindle).steps;
+    const std::vector<HolderStep> steps = tool_body(tool, *cell_.machine).steps;
     for (std::size_t i = 0; i < steps.size() && with_holder; ++i) {
         reach = std::max(reach, 0.5 * steps[i].diameter);
         length += steps[i].length;

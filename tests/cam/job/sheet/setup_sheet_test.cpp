@@ -182,6 +182,24 @@ TEST(SheetDetails, SayWhereTheMachineTimeGoes) {
               "fine finishing | 7 | 10.0 | 5.0 | 1.0 | 4.0 | 0.5 | 2.0 | 22.5 | 2.40 | 2.0 | 24.0");
 }
 
+TEST(SheetDetails, NameToolsThatStickOutFar) {
+    JobInput input = tilting_job();
+    input.program = ProgramInput{};
+    const auto use = [&](std::uint16_t tool, std::size_t orientation) {
+        JobChunk chunk;
+        chunk.tool = tool;
+        chunk.orientation = orientation;
+        input.program->program.chunks.push_back(chunk);
+    };
+    use(1, 0);
+    EXPECT_EQ(sheet_details(input).find("watch for chatter"), std::string::npos) << "9 diameters";
+    use(7, 1);
+    use(7, 0);
+    use(7, 1);
+    EXPECT_NE(sheet_details(input).find("Tool 7 sticks out by 15.4 diameters, in orientations 1, 2: watch for chatter."),
+              std::string::npos);
+}
+
 // The size that a tag states; {0, 0} without one.
 std::pair<int, int> size_in(const std::string& tag) {
     const auto value = [&](const std::string& name) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "tests/cam/setup/random_setups.h"
 
@@ -32,9 +33,9 @@ std::size_t count(const OrientationPoses& orientation, PoseKind kind) {
 
 TEST(MillingPoses, LieOnThePieceAtTheBlockAndAbove) {
     const Cell cell = ready_cell("kr60-ha.toml");
-    const BoxSetup s = box_setup(cell, {400, 200, 120}, {{0, 0, 1}, tool_axis(30, 0)});
+    const BoxSetup s = box_setup(cell, {400, 200, 120}, {{0, 0, 1}});
     const std::vector<OrientationPoses> all = milling_poses(s.setup, s.mesh, cell);
-    ASSERT_EQ(all.size(), 2U);
+    ASSERT_EQ(all.size(), 1U);
     const double top = s.setup.block.size.z - s.setup.spoil;
     // Straight up the CL surface is the top of the box, 20 x 10 squares, and the block is begun at its upper corners.
     const OrientationPoses& up = all[0];
@@ -56,17 +57,58 @@ TEST(MillingPoses, LieOnThePieceAtTheBlockAndAbove) {
             }
         }
     }
-    // A tilted tool comes to one more side of the block, down to the base: the spoil layer below it is left standing.
-    EXPECT_EQ(count(all[1], PoseKind::corner), 6U);
+}
+
+TEST(MillingPoses, OfATiltedToolThatIsTheFirstComeToOneMoreSideOfTheBlock) {
+    const Cell cell = ready_cell("kr60-ha.toml");
+    const BoxSetup s = box_setup(cell, {400, 200, 120}, {tool_axis(30, 0)});
+    const OrientationPoses tilted = milling_poses(s.setup, s.mesh, cell).front();
+    // Down to the base: the spoil layer below it is left standing.
+    EXPECT_EQ(count(tilted, PoseKind::corner), 6U);
     double least = 1e9;
-    for (const MillingPose& pose : all[1].regions.front().poses) least = std::min(least, pose.tip.z);
+    for (const MillingPose& pose : tilted.regions.front().poses) least = std::min(least, pose.tip.z);
     EXPECT_NEAR(least, 0, 1e-9);
+}
+
+// A table of 200 x 200 on a leg of 40 x 40: what stands under its top, and no more, is left to a tilted tool.
+BoxSetup table_setup(const Cell& cell, const std::vector<Vec3>& directions) {
+    BoxSetup s = box_setup(cell, {200, 200, 120}, directions);
+    s.mesh = shapes::joined({shapes::box({-20, -20, 0}, {20, 20, 100}, 4), shapes::box({-100, -100, 100}, {100, 100, 120}, 4)});
+    return s;
+}
+
+TEST(MillingPoses, OfAFurtherOrientationAreWhereTheOnesBeforeLeaveFoam) {
+    const Cell cell = ready_cell("kr60-ha.toml");
+    const BoxSetup box = box_setup(cell, {400, 200, 120}, {{0, 0, 1}, tool_axis(30, 0)});
+    EXPECT_TRUE(milling_poses(box.setup, box.mesh, cell)[1].regions.empty()) << "straight up mills all of a box";
+    // From +x the tool comes to the foam on that side of the leg.
+    const BoxSetup table = table_setup(cell, {{0, 0, 1}, tool_axis(50, 0), tool_axis(50, 0)});
+    const std::vector<OrientationPoses> all = milling_poses(table.setup, table.mesh, cell);
+    ASSERT_FALSE(all[1].regions.empty());
+    Box tips{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
+    for (const PoseRegion& region : all[1].regions) {
+        for (const MillingPose& pose : region.poses) {
+            if (pose.kind == PoseKind::tip) extend(tips, pose.tip);
+        }
+    }
+    EXPECT_LE(tips.min.z, 5) << "down to the base, on cells of 2.5";
+    EXPECT_LE(tips.max.z, 121);
+    // Its top is finished from above, but for what lies a step beside the foam under its edge.
+    const double inner = 100 - 2 * 20 / std::cos(50 * std::numbers::pi / 180);
+    for (const PoseRegion& region : all[1].regions) {
+        for (const MillingPose& pose : region.poses) {
+            const bool is_on_top = pose.kind == PoseKind::tip && pose.tip.z > 119;
+            EXPECT_TRUE(!is_on_top || pose.tip.x >= inner - 10) << pose.tip.x;
+        }
+    }
+    EXPECT_TRUE(all[2].regions.empty()) << "the same orientation again has nothing to do";
 }
 
 TEST(MillingPoses, StandNoFartherApartThanTheStep) {
     const Cell cell = ready_cell("irb6640-185-2.8.toml");
     BoxSetup s = box_setup(cell, {300, 300, 150}, {{0, 0, 1}, tool_axis(40, 70)});
     s.mesh = shapes::moved(shapes::ball({0, 0, 0}, 75), {0, 0, 75});
+    ASSERT_FALSE(milling_poses(s.setup, s.mesh, cell)[1].regions.empty()) << "below the equator";
     for (const OrientationPoses& orientation : milling_poses(s.setup, s.mesh, cell)) {
         for (const PoseRegion& region : orientation.regions) {
             ASSERT_FALSE(region.poses.empty());
