@@ -27,8 +27,8 @@ struct ToolBody {
 // Of the tools of a cell, without its drills, the one with the largest stick-out, the first of equal ones.
 // Precondition: there is one tool that is no drill.
 const CuttingTool& longest_tool(std::span<const CuttingTool> tools);
-// Holder, spindle and wrist as bodies_over_tip() has them, each up to the front of the next. The wrist keeps the distance
-// of the arm (PoseCheck::arm_to_block) to foam and piece.
+// Holder, spindle and wrist as bodies_over_tip() has them, each up to the front of the next. The wrist keeps the
+// distance of the arm (PoseCheck::arm_to_block) to foam and piece.
 ToolBody tool_body(const CuttingTool& tool, const CellMachine& machine);
 
 // Of the tip in the setup, so that no step comes below z = 0: for the angle between tool axis and z.

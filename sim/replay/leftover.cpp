@@ -92,13 +92,14 @@ std::vector<Judged> judge(const std::vector<Sample>& samples, const StockModel& 
     for (std::size_t first = 0; first < samples.size(); first += 64 * lot) {
         context.check_cancelled();
         context.progress("points of the surface measured", first, samples.size());
-        parallel_ranges(first, std::min(samples.size(), first + 64 * lot), lot,
-                        [&](std::size_t begin, std::size_t end) {
-                            for (std::size_t i = begin; i < end; ++i) {
-                                const Vec3 p = samples[i].point;
-                                judged[i] = {static_cast<float>(stock_model.distance_to_removed(p, most)), reaches[i]};
-                            }
-                        });
+        parallel_ranges(
+            first, std::min(samples.size(), first + 64 * lot), lot, [&](std::size_t begin, std::size_t end) {
+                std::size_t nearest = 0;
+                for (std::size_t i = begin; i < end; ++i) {
+                    const double distance = stock_model.distance_to_removed(samples[i].point, most, nearest);
+                    judged[i] = {static_cast<float>(distance), reaches[i]};
+                }
+            });
     }
     return judged;
 }

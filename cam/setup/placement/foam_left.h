@@ -1,9 +1,10 @@
-// Where foam stands after the orientations so far, if the tool has been everywhere that it can go: the foam that poses
-// of a further orientation are for.
+// Where foam stands after the orientations so far, if a flat end has been everywhere that it can go: the foam that
+// poses of a further orientation are for.
 //
 // mm. For choosing poses, which stand for squares of some 20 mm: a point counts as free where the tool came to one of
 // the nine cells about it, so that a wall along a tool axis is not taken for foam; what is thinner than a cell is not
 // seen (tests/cam/setup/placement/milling_poses_test.cpp). The foam of a toolpath is cam/stock/in_process_stock.h.
+// There each tool comes from all orientations before the next one, so the radius is that of the widest.
 
 #pragma once
 
@@ -16,11 +17,12 @@ namespace qchopper {
 
 class FoamLeft {
  public:
-    explicit FoamLeft(const Pose& piece_in_setup) : setup_in_piece_(inverse(piece_in_setup)) {}
+    FoamLeft(const Pose& piece_in_setup, double tool_radius)
+        : setup_in_piece_(inverse(piece_in_setup)), tool_radius_(tool_radius) {}
 
-    // All above a CL surface is gone, and with `clears_beside` all beside its map. Precondition: it is a map of the
-    // piece.
-    void remove_above(HeightField cl, bool clears_beside);
+    // All is gone above the closing of a surface by the tool, and with `clears_beside` all beside its map.
+    // Precondition: it is a map of the piece. O(cells * radius / cell).
+    void remove_above(HeightField surface, bool clears_beside);
 
     // Whether foam stands at a point in setup coordinates that is neither in the piece nor outside of the block.
     // O(orientations).
@@ -33,6 +35,7 @@ class FoamLeft {
         bool clears_beside;
     };
     Pose setup_in_piece_;
+    double tool_radius_;
     std::vector<Removed> removed_;
 };
 

@@ -336,6 +336,16 @@ HeightField tips_of(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis
     return map;
 }
 
+// Of the tools that rough.
+double widest_radius(const std::vector<CuttingTool>& tools) {
+    double widest = 0;
+    for (const CuttingTool& tool : tools) {
+        const bool is_roughing = tool.shape == ToolShape::flat || tool.shape == ToolShape::ball;
+        if (is_roughing) widest = std::max(widest, 0.5 * tool.diameter);
+    }
+    return widest;
+}
+
 bool is_inside(const Box& box, Vec3 p) {
     for (int i = 0; i < 3; ++i) {
         if (!(p[i] > box.min[i] && p[i] < box.max[i])) return false;
@@ -374,7 +384,6 @@ void keep_tips_under_foam(HeightField& map, const Pose& map_in_setup, const Box&
     }
 }
 
-
 }  // namespace
 
 std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
@@ -382,7 +391,7 @@ std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMe
     assert(cell.machine && !setup.access.orientations.empty() && options.step > 0);
     const ToolBody tool = *limiting_tools(cell).longest;
     const Box block = setup.milled_box();
-    FoamLeft foam(setup.piece_in_setup);
+    FoamLeft foam(setup.piece_in_setup, widest_radius(cell.machine->tools));
     std::vector<OrientationPoses> all;
     for (const ToolOrientation& orientation : setup.access.orientations) {
         const Vec3 tool_axis = setup.tool_axis(orientation);

@@ -110,8 +110,8 @@ class PlaceSearch {
             PlaceScore whole = scorer_.judged(skipped_[i], {true, std::max(best.score, -score_slack)});
             if (whole.score > best.score) best = std::move(whole);
         }
-        // The middle of the table, where an operator would put the block, may be better for all poses than it is for the
-        // extreme ones.
+        // The middle of the table, where an operator would put the block, may be better for all poses than it is for
+        // the extreme ones.
         if (inside_table(cell_, setup_.block.size, {}) >= 0) {
             PlaceScore middle = scorer_.judged({}, {true, best.score});
             if (middle.score > best.score) best = std::move(middle);

@@ -226,8 +226,7 @@ std::vector<const Closing*> Closings::along(std::size_t orientation, std::vector
     std::vector<const Closing*> closings;
     for (const std::size_t tool : tools) {
         const bool is_needless = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
-            return adds_nothing(machine.tools[tool], machine.tools[finer->tool], finer->map.is_limited,
-                                machine);
+            return adds_nothing(machine.tools[tool], machine.tools[finer->tool], finer->map.is_limited, machine);
         });
         if (!is_needless) closings.push_back(&of(orientation, tool, context));
     }

@@ -1,5 +1,6 @@
 // The lower surface of a swept convex body is the least of the body's over all places along the move, a convex function
-// of the place. For a ball and a flat end it is solved; for the rest it is searched. O(1).
+// of the place. For a ball and a flat end it is solved; for the rest it is searched. O(1). Compiled without errno of
+// sqrt() and traps, for which points of a row would be computed one after the other.
 
 #include "sim/replay/stock/cutter.h"
 
@@ -144,6 +145,55 @@ SweptCutter::Height SweptCutter::height(double x, double y) const {
     };
     if (cutter_.shape != ToolShape::flat) place = place_of_least(from, to, height_at);
     return {height_at(place), tip_z};
+}
+
+// As height() has it, without branches, so that the compiler computes several points at once.
+void SweptCutter::heights(const Row& x, double y, Row& z) const {
+    const bool is_flat = cutter_.shape == ToolShape::flat;
+    if (length_ == 0 || (cutter_.shape != ToolShape::ball && !is_flat)) {
+        for (std::size_t k = 0; k < at_once; ++k) z[k] = height(x[k], y).z;
+        return;
+    }
+    const double radius = cutter_.radius;
+    const double r2 = radius * radius;
+    const double length = length_;
+    const double slope = slope_;
+    const double share = ball_share_;
+    const double unit_x = unit_x_;
+    const double unit_y = unit_y_;
+    std::array<double, at_once> along;
+    std::array<double, at_once> half2;
+    std::array<double, at_once> from;
+    std::array<double, at_once> to;
+    std::array<double, at_once> place;
+    for (std::size_t k = 0; k < at_once; ++k) {
+        along[k] = x[k] * unit_x + y * unit_y;
+        const double aside = x[k] * unit_y - y * unit_x;
+        half2[k] = r2 - aside * aside;
+        const double half = std::sqrt(half2[k] > 0 ? half2[k] : 0);
+        const double first = along[k] - half;
+        const double last = along[k] + half;
+        from[k] = first > 0 ? first : 0;
+        to[k] = last < length ? last : length;
+        place[k] = along[k] - share * half;
+    }
+    if (is_flat) {
+        const Row& end = slope < 0 ? to : from;
+        for (std::size_t k = 0; k < at_once; ++k) {
+            const double beside = half2[k] < 0 ? infinite : 0;
+            z[k] = from[k] > to[k] ? infinite : slope * end[k] + beside;
+        }
+        return;
+    }
+    for (std::size_t k = 0; k < at_once; ++k) {
+        const double not_before = place[k] < from[k] ? from[k] : place[k];
+        const double at = to[k] < not_before ? to[k] : not_before;
+        const double off = along[k] - at;
+        const double under = half2[k] - off * off;
+        const double surface = slope * at + radius - std::sqrt(under > 0 ? under : 0);
+        const double beside = half2[k] < 0 ? infinite : 0;
+        z[k] = from[k] > to[k] ? infinite : surface + beside;
+    }
 }
 
 void SweptCutter::reach_of_row(double y, double& x_min, double& x_max) const {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "base/vec3.h"
 #include "cam/cell/cutting_tool.h"
@@ -46,6 +47,10 @@ class SweptCutter {
         double tip_z = 0;  // of the tip, at its lowest while the tool is over the point
     };
     Height height(double x, double y) const;
+    // Of several points of a row the same z, to the bit; of balls and flat ends computed together.
+    static constexpr std::size_t at_once = 8;
+    using Row = std::array<double, at_once>;
+    void heights(const Row& x, double y, Row& z) const;
     // How far a point is outside: negative inside, where it is the distance from the surface. It changes by no more
     // than the distance between two points; outside of flat, bull and cone it may be too small.
     double distance(Vec3 point) const;

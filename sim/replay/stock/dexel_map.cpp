@@ -177,8 +177,31 @@ double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& 
     return next;
 }
 
+bool DexelMap::is_cut_near(double x, double y, double across, double height) const {
+    const auto square_of = [&](double at, double begin, std::int32_t tiles) {
+        const double squares = static_cast<double>(tiles) * (DexelTile::side / DexelTile::square);
+        return static_cast<std::int32_t>(
+            std::clamp(std::floor((at - begin) / cell_ / DexelTile::square), 0.0, squares - 1));
+    };
+    const std::int32_t i_end = square_of(x + across, x_min_, tiles_x_);
+    const std::int32_t j_end = square_of(y + across, y_min_, tiles_y_);
+    constexpr std::int32_t squares = DexelTile::side / DexelTile::square;
+    for (std::int32_t j = square_of(y - across, y_min_, tiles_y_); j <= j_end; ++j) {
+        for (std::int32_t i = square_of(x - across, x_min_, tiles_x_); i <= i_end; ++i) {
+            const DexelTile* here = tile(i / squares, j / squares);
+            if (here == nullptr) continue;
+            const auto in_tile =
+                static_cast<std::size_t>(j % squares) * squares + static_cast<std::size_t>(i % squares);
+            if (static_cast<double>(here->min_of_square[in_tile]) < height) return true;
+        }
+    }
+    return false;
+}
+
 double DexelMap::distance_to_removed(Vec3 point, double most) const {
     constexpr auto side = DexelTile::side;
+    const bool is_within_few_squares = most <= DexelTile::square * cell_;
+    if (is_within_few_squares && !is_cut_near(point.x, point.y, most, point.z + most)) return most;
     return distance_to_cells(point, x_min_, y_min_, cell_, most, [&](std::int32_t i, std::int32_t j) {
         const bool is_in = i >= 0 && j >= 0 && i < tiles_x_ * side && j < tiles_y_ * side;
         const DexelTile* here = is_in ? tile(i / side, j / side) : nullptr;

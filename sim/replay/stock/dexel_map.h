@@ -141,6 +141,8 @@ class DexelMap {
         std::int32_t i = 0;
         std::int32_t j = 0;
     };
+    // Whether any cell of the squares that hold points nearer than that, across, was cleared below a height.
+    bool is_cut_near(double x, double y, double across, double height) const;
     double remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
                             double t, double end) const;
     // From t on, where in a square of `step` cells, a power of 2, the line leaves it, but not beyond `end`.

@@ -80,6 +80,9 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
                                       std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
     const double least = a.z + std::min(0.0, move.z);
+    static_assert(SweptCutter::at_once == DexelTile::square);
+    SweptCutter::Row xs;  // of a row of a square
+    SweptCutter::Row zs;
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         if (tile.max_cut <= least) return;
         const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
@@ -89,18 +92,24 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
             double x_max = 0;
             swept.reach_of_row(y, x_min, x_max);
             const CellRange row = map.range(x_min + a.x, x_max + a.x, 0, 0);
+            const std::int32_t x_begin = std::max(0, row.x_begin - tx * side);
             const std::int32_t x_end = std::min(row.x_end - tx * side, side);
-            for (std::int32_t i = std::max(0, row.x_begin - tx * side); i < x_end; ++i) {
-                if (tile.max_of_square[DexelTile::square_of_cut(i, j)] <= least) {
-                    i |= DexelTile::square - 1;
-                    continue;
+            for (std::int32_t i = x_begin; i < x_end; ++i) {
+                if (i == x_begin || i % DexelTile::square == 0) {
+                    if (tile.max_of_square[DexelTile::square_of_cut(i, j)] <= least) {
+                        i |= DexelTile::square - 1;
+                        continue;
+                    }
+                    const std::int32_t first = tx * side + i / DexelTile::square * DexelTile::square;
+                    for (std::int32_t k = 0; k < DexelTile::square; ++k)
+                        xs[static_cast<std::size_t>(k)] = map.centre_x(first + k) - a.x;
+                    swept.heights(xs, y, zs);
                 }
-                if (tile.cut[cell_of(i, j)] <= least) continue;
-                const double x = map.centre_x(tx * side + i) - a.x;
-                const SweptCutter::Height at = swept.height(x, y);
-                const double z = a.z + at.z;
                 const auto cell = cell_of(i, j);
-                if (!(z < tile.cut[cell])) continue;
+                const auto in_square = static_cast<std::size_t>(i % DexelTile::square);
+                const double z = a.z + zs[in_square];
+                if (tile.cut[cell] <= least || !(z < tile.cut[cell])) continue;
+                const double x = xs[in_square];
                 tile.lower_cut(cell, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
                 columns.know(tile, {tx, ty, cell}, z - known_below);
@@ -110,7 +119,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
                 const SweptCutter::Height inside = inner.height(x, y);
                 if (!(a.z + contact_mm + inside.z < removal.top - contact_mm)) continue;
                 result.touches = true;
-                const double depth = removal.top - (a.z + at.tip_z);
+                const double depth = removal.top - (a.z + swept.height(x, y).tip_z);
                 result.depth = std::max(result.depth, depth);
                 if (depth > flute) deep.push_back(move.x * x + move.y * y);
             }
@@ -258,14 +267,19 @@ std::vector<Dexel> StockModel::on_line(Vec3 from, Vec3 along, double low, double
     return stock_model;
 }
 
-double StockModel::distance_to_removed(Vec3 p, double most) const {
+double StockModel::distance_to_removed(Vec3 p, double most, std::size_t& nearest) const {
     double best = most;
     for (const double side_distance :
          {p.x - block_.min.x, block_.max.x - p.x, p.y - block_.min.y, block_.max.y - p.y, block_.max.z - p.z}) {
         best = std::min(best, std::max(0.0, side_distance));
     }
-    for (const auto& map : maps_) {
-        best = std::min(best, map->distance_to_removed(apply_inverse(map->frame_in_block, p), best));
+    const std::size_t first = nearest;
+    for (std::size_t k = 0; k < maps_.size(); ++k) {
+        const std::size_t i = (first + k) % maps_.size();
+        const double own = maps_[i]->distance_to_removed(apply_inverse(maps_[i]->frame_in_block, p), best);
+        if (own >= best) continue;
+        best = own;
+        nearest = i;
     }
     return best;
 }

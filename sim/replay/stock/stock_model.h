@@ -57,7 +57,8 @@ class StockModel {
     std::vector<Dexel> on_line(Vec3 from, Vec3 along, double low, double high) const;
     // Distance from a point to the nearest point that was removed or lies outside of the block, at most `most`; points
     // of cells count at their centres, so that it is too large by at most 0.71 cells. Not for the block's underside.
-    double distance_to_removed(Vec3 point, double most) const;
+    // `nearest` is the orientation along which it was removed where there is one; the one before is asked first.
+    double distance_to_removed(Vec3 point, double most, std::size_t& nearest) const;
 
     // What is left, without the tools that were used.
     StockRecord record() const;

@@ -206,8 +206,7 @@ TEST_F(VerifyCommand, ASetupOtherThanThatOfTheProjectIsNamed) {
     change_manifest(job, "\"setup\": {", "\"tools\": null", order);
     const Ended alone = run({"verify", job.string()});
     EXPECT_EQ(alone.code, 0) << alone.err << alone.out;
-    EXPECT_TRUE(has(alone.out, "Note: of the cell's tools it is carved with tools 1, 3, 4 and 8 alone."))
-        << alone.out;
+    EXPECT_TRUE(has(alone.out, "Note: of the cell's tools it is carved with tools 1, 3, 4 and 8 alone.")) << alone.out;
     EXPECT_TRUE(has(alone.out, "Note: its setup was not compared")) << alone.out;
     const Ended ended = run({"verify", "p.qch"});
     EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;

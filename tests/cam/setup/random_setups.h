@@ -55,7 +55,8 @@ inline void undercut(BoxSetup& made) {
     }
 }
 
-// A frustum on its smaller end, of a size up to that of the table, and up to three further directions with a tilt of at most 60 degrees.
+// A frustum on its smaller end, of a size up to that of the table, and up to three further directions with a tilt of at
+// most 60 degrees.
 inline BoxSetup random_setup(const Cell& cell, std::mt19937& random) {
     const auto number = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);

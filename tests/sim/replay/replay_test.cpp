@@ -52,8 +52,8 @@ TEST_P(Replay, TheWristIsKeptOutOfTheFoamAsTheSpindleIs) {
         const ReplayReport report = replay(read_back(job, job.files()), job.scene(), coarse());
         const std::size_t contacts = report.counts[static_cast<std::size_t>(FindingKind::holder_contact)];
         EXPECT_EQ(contacts > 0, is_in) << above_tip;
-        EXPECT_EQ(findings_of(report).find("the wrist comes") != std::string::npos, is_in)
-            << above_tip << "\n" << findings_of(report);
+        EXPECT_EQ(findings_of(report).find("the wrist comes") != std::string::npos, is_in) << above_tip << "\n"
+                                                                                           << findings_of(report);
     }
 }
 

@@ -196,8 +196,9 @@ TEST(SheetDetails, NameToolsThatStickOutFar) {
     use(7, 1);
     use(7, 0);
     use(7, 1);
-    EXPECT_NE(sheet_details(input).find("Tool 7 sticks out by 15.4 diameters, in orientations 1, 2: watch for chatter."),
-              std::string::npos);
+    EXPECT_NE(
+        sheet_details(input).find("Tool 7 sticks out by 15.4 diameters, in orientations 1, 2: watch for chatter."),
+        std::string::npos);
 }
 
 // The size that a tag states; {0, 0} without one.

@@ -73,7 +73,8 @@ TEST(MillingPoses, OfATiltedToolThatIsTheFirstComeToOneMoreSideOfTheBlock) {
 // A table of 200 x 200 on a leg of 40 x 40: what stands under its top, and no more, is left to a tilted tool.
 BoxSetup table_setup(const Cell& cell, const std::vector<Vec3>& directions) {
     BoxSetup s = box_setup(cell, {200, 200, 120}, directions);
-    s.mesh = shapes::joined({shapes::box({-20, -20, 0}, {20, 20, 100}, 4), shapes::box({-100, -100, 100}, {100, 100, 120}, 4)});
+    s.mesh = shapes::joined(
+        {shapes::box({-20, -20, 0}, {20, 20, 100}, 4), shapes::box({-100, -100, 100}, {100, 100, 120}, 4)});
     return s;
 }
 

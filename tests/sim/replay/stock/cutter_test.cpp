@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,33 @@ TEST(Cutter, ItsLowestPointIsThatOfItsSurfaceHoweverItLeans) {
 }
 
 // Leant by less than the flank's angle to the floor it stands on the ball of its tip, by more on its rim.
+TEST(SweptCutter, PointsOfARowHaveTheHeightsThatTheyHaveAlone) {
+    std::mt19937 random(8);
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const std::vector<Cutter> cutters{
+        {ToolShape::ball, 3, 3, 0, 1}, {ToolShape::flat, 20, 0, 0, 1}, {ToolShape::bull, 6, 2, 0, 1}};
+    int over = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Cutter& cutter = cutters[static_cast<std::size_t>(i) % cutters.size()];
+        const double steep = i % 5 == 0 ? 0 : number(-6, 6);
+        const Vec3 move = i % 11 == 0 ? Vec3{0, 0, steep} : Vec3{number(-9, 9), i % 7 == 0 ? 0 : number(-9, 9), steep};
+        const SweptCutter swept(cutter, move);
+        const double y = number(-1.2 * cutter.radius, 1.2 * cutter.radius);
+        const double x_min = number(-1.5 * cutter.radius, cutter.radius);
+        SweptCutter::Row x;
+        SweptCutter::Row z;
+        for (std::size_t k = 0; k < x.size(); ++k) x[k] = x_min + 0.25 * static_cast<double>(k);
+        swept.heights(x, y, z);
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            EXPECT_EQ(z[k], swept.height(x[k], y).z) << i << " " << k;
+            over += std::isinf(z[k]) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(over, 5000);
+}
+
 TEST(Cutter, ARoundedConeRestsOnItsTipAndThenOnItsRim) {
     const Cutter cone = cutter_of(tool_of(ToolShape::cone, 12, 2, 14));
     const double flank = (90 - 7) * std::numbers::pi / 180;

@@ -175,9 +175,39 @@ TEST(StockModel, DistanceToTheNearestRemovedPointIsNeverTooSmall) {
         const double beside = std::max(0.0, std::abs(p.y) - 10);
         const double below = std::max(0.0, 20 - p.z);
         const double exact = std::hypot(beside, below);
-        EXPECT_GE(stock_model.distance_to_removed(p, 20), exact - 1e-5);
-        EXPECT_LE(stock_model.distance_to_removed(p, 20), exact + 0.71 * 0.25);
+        std::size_t nearest = 0;
+        EXPECT_GE(stock_model.distance_to_removed(p, 20, nearest), exact - 1e-5);
+        EXPECT_LE(stock_model.distance_to_removed(p, 20, nearest), exact + 0.71 * 0.25);
     }
+}
+
+Vec3 tilted(double tilt_deg, double azimuth_deg) {
+    const double tilt = tilt_deg * std::numbers::pi / 180;
+    const double azimuth = azimuth_deg * std::numbers::pi / 180;
+    return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+}
+
+TEST(StockModel, DistanceDoesNotDependOnTheOrientationThatIsAskedFirst) {
+    StockModel stock_model(block, {{0, 0, 1}, tilted(40, 20), tilted(30, 200)}, 0.25);
+    stock_model.cut(0, flat, long_flute, {-70, 0, 20}, {70, 0, 20});
+    stock_model.cut(1, flat, long_flute, {10, -40, 12}, {10, 40, 12});
+    std::mt19937 random(3);
+    int of_second = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const auto number = [&](double low, double high) {
+            return std::uniform_real_distribution<double>(low, high)(random);
+        };
+        const Vec3 p{number(-40, 40), number(-20, 20), number(5, 28)};
+        const double most = i % 3 == 0 ? 20 : number(0.2, 3);
+        std::size_t nearest = 0;
+        const double distance = stock_model.distance_to_removed(p, most, nearest);
+        for (std::size_t first = 0; first < 3; ++first) {
+            std::size_t found = first;
+            EXPECT_EQ(stock_model.distance_to_removed(p, most, found), distance) << i;
+        }
+        of_second += nearest == 1 ? 1 : 0;
+    }
+    EXPECT_GT(of_second, 50);
 }
 
 TEST(StockModel, AHolderMeetsWhatStandsHigher) {
