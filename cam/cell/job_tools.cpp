@@ -1,4 +1,4 @@
-// Copies numbers; one pass over the tools, or one for each tool.
+// Copies numbers in one pass over the tools, O(tools), or one for each tool, O(tools^2).
 
 #include "cam/cell/job_tools.h"
 

@@ -28,19 +28,19 @@ HeightField without_heights(const HeightField& map) {
     return empty;
 }
 
-struct Extent {
+struct MapHeights {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
 };
 
-Extent extent_of(const HeightField& map) {
-    Extent extent;
+MapHeights heights_of(const HeightField& map) {
+    MapHeights heights;
     for (const float height : map.height) {
         if (height == HeightField::nothing) continue;
-        extent.lowest = std::min(extent.lowest, static_cast<double>(height));
-        extent.highest = std::max(extent.highest, static_cast<double>(height));
+        heights.lowest = std::min(heights.lowest, static_cast<double>(height));
+        heights.highest = std::max(heights.highest, static_cast<double>(height));
     }
-    return extent;
+    return heights;
 }
 
 double narrowest(const ToolBody& body) {
@@ -111,7 +111,7 @@ bool raise_to_holder_clearance(HeightField& map, const ToolBody& tool, const Pos
     const auto factor = static_cast<std::size_t>(std::max(2.0, wanted));
     const HeightField wide = coarser(map, static_cast<double>(factor));
     HeightField limit = without_heights(wide);
-    const Extent heights = extent_of(map);
+    const MapHeights heights = heights_of(map);
     double above = tool.stick_out;
     for (const HolderStep& step : tool.steps) {
         // What begins higher above every tip than the map is high meets nothing.

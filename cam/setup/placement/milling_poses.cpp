@@ -323,11 +323,11 @@ CellMask shown_flush_caps(const HeightField& map, const Setup& setup) {
 }
 
 // The tips of an orientation, a cell each. None stands on a cap that is sawn.
-HeightField tips_of(const Setup& setup, const TriangleMesh& mesh, Vec3 tool_axis_in_piece, const ToolBody& tool,
-                    const PoseOptions& options) {
+HeightField tips_of(const Setup& setup, const TriangleMesh& mesh, const ToolOrientation& orientation,
+                    const ToolBody& tool, const PoseOptions& options) {
     HeightField map =
-        height_field(mesh, tool_axis_in_piece, options.map_cell > 0 ? options.map_cell : options.step / 8);
-    if (rotate(setup.piece_in_setup, tool_axis_in_piece).z > upright) fill_with_base(map, setup.piece_in_setup);
+        height_field(mesh, orientation.tool_axis, options.map_cell > 0 ? options.map_cell : options.step / 8);
+    if (setup.tool_axis(orientation).z > upright) fill_with_base(map, setup.piece_in_setup);
     const CellMask sawn = shown_flush_caps(map, setup);
     raise_to_holder_clearance(map, tool, setup.piece_in_setup);
     for (std::size_t i = 0; i < sawn.size(); ++i) {
@@ -400,7 +400,7 @@ std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMe
         OrientationPoses poses{tool_axis, {}};
         if (is_first || options.block_only) poses.regions.push_back(block_region(block, heights, options));
         if (!options.block_only) {
-            HeightField map = tips_of(setup, mesh, orientation.tool_axis, tool, options);
+            HeightField map = tips_of(setup, mesh, orientation, tool, options);
             const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_field);
             HeightField needed = map;
             if (!is_first) keep_tips_under_foam(needed, map_in_setup, block, foam, options.step);
