@@ -178,14 +178,13 @@ double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& 
 }
 
 bool DexelMap::is_cut_near(double x, double y, double across, double height) const {
+    constexpr std::int32_t squares = DexelTile::side / DexelTile::square;  // of a tile, each way
     const auto square_of = [&](double at, double begin, std::int32_t tiles) {
-        const double squares = static_cast<double>(tiles) * (DexelTile::side / DexelTile::square);
-        return static_cast<std::int32_t>(
-            std::clamp(std::floor((at - begin) / cell_ / DexelTile::square), 0.0, squares - 1));
+        const double square = std::floor((at - begin) / cell_ / DexelTile::square);
+        return static_cast<std::int32_t>(std::clamp(square, 0.0, static_cast<double>(tiles * squares - 1)));
     };
     const std::int32_t i_end = square_of(x + across, x_min_, tiles_x_);
     const std::int32_t j_end = square_of(y + across, y_min_, tiles_y_);
-    constexpr std::int32_t squares = DexelTile::side / DexelTile::square;
     for (std::int32_t j = square_of(y - across, y_min_, tiles_y_); j <= j_end; ++j) {
         for (std::int32_t i = square_of(x - across, x_min_, tiles_x_); i <= i_end; ++i) {
             const DexelTile* here = tile(i / squares, j / squares);

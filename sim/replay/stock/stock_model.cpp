@@ -64,6 +64,22 @@ void for_tiles(DexelColumns& columns, const CellRange& cells, const Work& work) 
     }
 }
 
+// A cutter over the cells of a row of one square of a map.
+struct CutterOverSquare {
+    static_assert(SweptCutter::at_once == DexelTile::square);
+    SweptCutter::Row x;  // from where the move begins
+    SweptCutter::Row z;
+
+    // Of the square that holds a cell.
+    void find(const SweptCutter& swept, const DexelMap& map, std::int32_t cell, double from_x, double y) {
+        const std::int32_t first = cell / DexelTile::square * DexelTile::square;
+        for (std::int32_t k = 0; k < DexelTile::square; ++k) {
+            x[static_cast<std::size_t>(k)] = map.centre_x(first + k) - from_x;
+        }
+        swept.heights(x, y, z);
+    }
+};
+
 }  // namespace
 
 CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
@@ -80,9 +96,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
                                       std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
     const double least = a.z + std::min(0.0, move.z);
-    static_assert(SweptCutter::at_once == DexelTile::square);
-    SweptCutter::Row xs;  // of a row of a square
-    SweptCutter::Row zs;
+    CutterOverSquare over;
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         if (tile.max_cut <= least) return;
         const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
@@ -100,16 +114,13 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
                         i |= DexelTile::square - 1;
                         continue;
                     }
-                    const std::int32_t first = tx * side + i / DexelTile::square * DexelTile::square;
-                    for (std::int32_t k = 0; k < DexelTile::square; ++k)
-                        xs[static_cast<std::size_t>(k)] = map.centre_x(first + k) - a.x;
-                    swept.heights(xs, y, zs);
+                    over.find(swept, map, tx * side + i, a.x, y);
                 }
                 const auto cell = cell_of(i, j);
                 const auto in_square = static_cast<std::size_t>(i % DexelTile::square);
-                const double z = a.z + zs[in_square];
+                const double z = a.z + over.z[in_square];
                 if (tile.cut[cell] <= least || !(z < tile.cut[cell])) continue;
-                const double x = xs[in_square];
+                const double x = over.x[in_square];
                 tile.lower_cut(cell, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
                 columns.know(tile, {tx, ty, cell}, z - known_below);
@@ -128,8 +139,8 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     });
     if (length > 0) ++map.version;
     result.volume = length * cell_ * cell_;
-    const double across = std::hypot(move.x, move.y);
-    result.deep_mm2 = static_cast<double>(max_within(deep, 2 * r * across)) * cell_ * cell_;
+    const double diameter = 2 * r * std::hypot(move.x, move.y);  // as `deep` is measured
+    result.deep_mm2 = static_cast<double>(max_within(deep, diameter)) * cell_ * cell_;
     return result;
 }
 
