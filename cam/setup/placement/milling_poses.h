@@ -4,9 +4,9 @@
 // holder of the tool with the largest stick-out allows the tip (holder_clearance.h); poses that no height of the tip
 // allows are left out, because no program goes there. The direction straight up also mills down to z = 0 beside the
 // piece. Directions are milled in their order: of a further one there are poses where the ones before leave foam
-// (foam_left.h), and a step beside. Further points are, of the first direction, the corners and edges of the block
-// above z = 0 on the sides that the tool comes to, where roughing begins, and above all of these the height in which
-// the tool comes and goes (tests/cam/setup/placement/milling_poses_test.cpp).
+// (foam_left.h), and in three squares beside. Further points are, of the first direction, the corners and edges of the
+// block above z = 0 on the sides that the tool comes to, where roughing begins, and above all of these the height in
+// which the tool comes and goes (tests/cam/setup/placement/milling_poses_test.cpp).
 
 #pragma once
 

@@ -70,11 +70,11 @@ TEST(MillingPoses, OfATiltedToolThatIsTheFirstComeToOneMoreSideOfTheBlock) {
     EXPECT_NEAR(least, 0, 1e-9);
 }
 
-// A table of 200 x 200 on a leg of 40 x 40: what stands under its top, and no more, is left to a tilted tool.
+// A table of 500 x 200 on a leg of 40 x 40: what stands under its top, and no more, is left to a tilted tool.
 BoxSetup table_setup(const Cell& cell, const std::vector<Vec3>& directions) {
-    BoxSetup s = box_setup(cell, {200, 200, 120}, directions);
+    BoxSetup s = box_setup(cell, {800, 200, 120}, directions);
     s.mesh = shapes::joined(
-        {shapes::box({-20, -20, 0}, {20, 20, 100}, 4), shapes::box({-100, -100, 100}, {100, 100, 120}, 4)});
+        {shapes::box({-20, -20, 0}, {20, 20, 100}, 4), shapes::box({-400, -100, 100}, {100, 100, 120}, 4)});
     return s;
 }
 
@@ -94,8 +94,8 @@ TEST(MillingPoses, OfAFurtherOrientationAreWhereTheOnesBeforeLeaveFoam) {
     }
     EXPECT_LE(tips.min.z, 5) << "down to the base, on cells of 2.5";
     EXPECT_LE(tips.max.z, 121);
-    // Its top is finished from above, but for what lies a step beside the foam under its edge.
-    const double inner = 100 - 2 * 20 / std::cos(50 * std::numbers::pi / 180);
+    // Its top is finished from above, but for what lies four steps beside the foam under its edge.
+    const double inner = 100 - 4 * 20 / std::cos(50 * std::numbers::pi / 180);
     for (const PoseRegion& region : all[1].regions) {
         for (const MillingPose& pose : region.poses) {
             const bool is_on_top = pose.kind == PoseKind::tip && pose.tip.z > 119;
