@@ -148,7 +148,7 @@ void Setups::keep_only(std::span<const Piece> pieces) {
 
 bool Setups::fits(const Piece& piece) {
     return once(stages_of(piece).fits, [&] {
-        const std::vector<ToolNumbers> sets = tools_for(piece);
+        const std::vector<ToolNumbers> sets = tool_sets_for(piece);
         return std::any_of(sets.begin(), sets.end(), [&](const ToolNumbers& tools) {
             return fits_cell_and_machine(piece, with_tools(cell_, tools));
         });
@@ -171,7 +171,7 @@ bool Setups::find_whether_machinable(const Piece& piece) {
     if (!cell_.machine) return true;
     const Vec3 size = oriented_box(piece.mesh->points).size();
     const auto low = [&](const ToolNumbers& tools) { return low_piece_height(with_tools(cell_, tools)); };
-    if (std::max({size.x, size.y, size.z}) <= low(tools_for(piece).front())) return true;
+    if (std::max({size.x, size.y, size.z}) <= low(tool_sets_for(piece).front())) return true;
     const auto is_low_enough = [&](const Setup& setup) {
         if (setup.box.max.z <= low(setup.tools)) return true;
         return setup.access.unreachable_share() - unreachable_without_holder(piece).share <= max_by_machine;
@@ -188,7 +188,7 @@ UnreachableSurface Setups::sampled_of(const Piece& piece) const {
     options.takes_kept_samples = !count_narrow_;
     options.samples = PieceAccessOptions{}.samples;
     std::optional<UnreachableSurface> best;
-    for (const ToolNumbers& tools : tools_for(piece)) {
+    for (const ToolNumbers& tools : tool_sets_for(piece)) {
         const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools), options);
         const UnreachableSurface own = unreachable_surface(choice.setups.front());
         if (!best || own.share < best->share) best = own;
@@ -222,10 +222,10 @@ SetupOptions Setups::options_for(const Piece& piece) const {
     return options;
 }
 
-std::vector<ToolNumbers> Setups::tools_for(const Piece& piece) const {
+std::vector<ToolNumbers> Setups::tool_sets_for(const Piece& piece) const {
     const SetupOrder* order = order_for(piece);
     if (order == nullptr || order->tools.empty()) return tool_sets_;
-    return {order->tools};
+    return sets_of(with_tools(cell_, order->tools), order->tools);
 }
 
 bool Setups::is_good(const Setup& setup) const {
@@ -239,7 +239,7 @@ MappedSetup Setups::mapped_with(const ToolNumbers& tools, const Piece& piece) co
 
 // Of the sets of tools as in sampled_of(), if the block fits.
 MappedSetup Setups::mapped_of(const Piece& piece) const {
-    const std::vector<ToolNumbers> sets = tools_for(piece);
+    const std::vector<ToolNumbers> sets = tool_sets_for(piece);
     MappedSetup best = mapped_with(sets.front(), piece);
     const auto key = [](const MappedSetup& m) {
         return std::pair(!m.stock_fit.fits(), m.setup().access.unreachable_share());
@@ -265,7 +265,7 @@ PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, con
     if (!cell_.machine) return {mapped, {}};
     PlacedSetup best = placed_with(mapped, piece, context);
     const auto key = [](const PlacedSetup& p) { return std::pair(!p.fits(), p.setup().access.unreachable_share()); };
-    for (const ToolNumbers& tools : tools_for(piece)) {
+    for (const ToolNumbers& tools : tool_sets_for(piece)) {
         if (best.fits() && is_good(best.setup())) break;
         if (tools == mapped.setup().tools) continue;
         PlacedSetup other = placed_with(mapped_with(tools, piece), piece, context);

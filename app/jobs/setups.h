@@ -102,7 +102,7 @@ class Setups {
     const SetupOrder* order_for(const Piece& piece) const;
     SetupOptions options_for(const Piece& piece) const;
     // The sets of tools that a piece may be milled with, the shortest first.
-    std::vector<ToolNumbers> tools_for(const Piece& piece) const;
+    std::vector<ToolNumbers> tool_sets_for(const Piece& piece) const;
     bool is_good(const Setup& setup) const;
     MappedSetup mapped_with(const ToolNumbers& tools, const Piece& piece) const;
     MappedSetup mapped_of(const Piece& piece) const;

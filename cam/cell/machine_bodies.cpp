@@ -1,7 +1,6 @@
 // Every axis turns what lies behind it about a line that is known while the arm stands straight up; the motion of a
 // link is the product of these turns (R. W. Brockett, "Robotic manipulators and the product of exponentials formula",
-// 1984). O(links): six sines and cosines and as
-// many products of poses.
+// 1984). O(links): six sines and cosines and as many products of poses.
 
 #include "cam/cell/machine_bodies.h"
 

@@ -1,5 +1,6 @@
 // One map per orientation, closed by a disc, the underside of a flat end: the highest of the cells under it where it
 // stands, and of a cell the lowest of the discs over it. Then each is lowered to the lowest of nine cells.
+// O(cells * radius / cell) an orientation.
 
 #include "cam/setup/placement/foam_left.h"
 

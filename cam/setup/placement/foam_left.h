@@ -3,7 +3,7 @@
 //
 // mm. For choosing poses, which stand for squares of some 20 mm: a point counts as free where the tool came to one of
 // the nine cells about it, so that a wall along a tool axis is not taken for foam; what is thinner than a cell is not
-// seen (tests/cam/setup/placement/milling_poses_test.cpp). The foam of a toolpath is cam/stock/in_process_stock.h.
+// seen (tests/cam/setup/placement/foam_left_test.cpp). The foam of a toolpath is cam/stock/in_process_stock.h.
 // There each tool comes from all orientations before the next one, so the radius is that of the widest.
 
 #pragma once

@@ -13,6 +13,7 @@
 
 #include "cam/setup/limiting_tools.h"
 #include "cam/setup/placement/foam_left.h"
+#include "segment/raster/disc_dilation.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -25,7 +26,7 @@ constexpr double near_flush_face = 0.2;  // mm; caps and the sizes of sawn block
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 // Squares, beside those under foam: a wide tool and the ends of its passes come so far. With 1 three of 29 pieces of a
 // bunny had runs that no arm posture took.
-constexpr std::size_t beside_foam = 3;
+constexpr double beside_foam = 3;
 
 double number(std::size_t count) {
     return static_cast<double>(count);
@@ -374,17 +375,10 @@ void keep_tips_under_foam(HeightField& map, const Pose& map_in_setup, const Box&
             needed = foam.stands_at(point) ? 1 : 0;
         }
     }
+    const CellMask is_near = marked_within(is_needed, columns, rows, beside_foam);
     for (std::size_t i = 0; i < map.height.size(); ++i) {
-        const std::size_t column = i % map.columns / side;
-        const std::size_t row = i / map.columns / side;
-        bool is_near = false;
-        for (std::size_t r = row - std::min(row, beside_foam); r < std::min(rows, row + beside_foam + 1); ++r) {
-            for (std::size_t c = column - std::min(column, beside_foam);
-                 c < std::min(columns, column + beside_foam + 1); ++c) {
-                is_near = is_near || is_needed[r * columns + c] != 0;
-            }
-        }
-        if (!is_near) map.height[i] = HeightField::nothing;
+        if (is_near[i / map.columns / side * columns + i % map.columns / side] == 0)
+            map.height[i] = HeightField::nothing;
     }
 }
 
@@ -411,7 +405,8 @@ std::vector<OrientationPoses> milling_poses(const Setup& setup, const TriangleMe
             for (PoseRegion& region : ClSurface(needed, map_in_setup, heights, options.step).regions(options)) {
                 poses.regions.push_back(std::move(region));
             }
-            foam.remove_above(std::move(map), tool_axis.z > upright);
+            const bool is_last = all.size() + 1 == setup.access.orientations.size();
+            if (!is_last) foam.remove_above(std::move(map), tool_axis.z > upright);
         }
         all.push_back(std::move(poses));
     }

@@ -89,6 +89,9 @@ PoseJudge::PoseJudge(const Cell& cell, const CuttingTool& tool)
     const Pose& tip = arm_->tip_in_flange;
     turns_by_axis_6_ = std::hypot(tip.shift.x, tip.shift.y) < 1e-6 && tip.row[2].z > 1 - 1e-12;
     links_ = machine_.robot->capsules;
+    for (const LinkCapsule& link : links_) {
+        is_over_tip_.push_back(is_about_tool_axis(link, *machine_.robot, machine_.spindle) ? 1 : 0);
+    }
 }
 
 StandingBlock PoseJudge::standing(const Pose& setup_in_cell, const Box& block_in_setup) const {
@@ -241,7 +244,7 @@ void PoseJudge::judge_links(const StandingBlock& block, bool is_milling, MarginT
         }
         if (link == 0) continue;
         if (link > 1) tally.add(PoseCheck::arm_to_floor, lowest(shape) - standing_.floor_z, {number, 0});
-        if (!is_milling || !is_about_tool_axis(machine_.robot->capsules[i], *machine_.robot, machine_.spindle)) {
+        if (!is_milling || is_over_tip_[i] == 0) {
             tally.add(PoseCheck::arm_to_block, distance(shape, block.block), {number, 0});
         }
         if (standing_.table) tally.add(PoseCheck::arm_to_table, distance(shape, *standing_.table), {number, 0});

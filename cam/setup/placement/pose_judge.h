@@ -85,10 +85,11 @@ class PoseJudge {
     std::optional<ToolArm> arm_;
     bool turns_by_axis_6_ = false;
     StandingBodies standing_;
-    std::vector<AxisBody> axis_bodies_;  // in the frame of the tip
-    double lowest_holder_ = 0;           // of the pose's direction: height of holder and spindle over the tip
-    std::vector<LinkCapsule> links_;     // of the pose
-    std::vector<AxisBody> on_axis_;      // of the pose
+    std::vector<AxisBody> axis_bodies_;      // in the frame of the tip
+    double lowest_holder_ = 0;               // of the pose's direction: height of holder and spindle over the tip
+    std::vector<LinkCapsule> links_;         // of the pose
+    std::vector<std::uint8_t> is_over_tip_;  // by link of links_: is_about_tool_axis()
+    std::vector<AxisBody> on_axis_;          // of the pose
     std::vector<std::optional<Joints>> joints_;
 };
 
