@@ -115,7 +115,8 @@ bool raise_to_holder_clearance(HeightField& map, const ToolBody& tool, const Pos
     double above = tool.stick_out;
     for (const HolderStep& step : tool.steps) {
         // What begins higher above every tip than the map is high meets nothing.
-        if (heights.highest - above > heights.lowest) raise_over_disc(limit, wide, 0.5 * step.diameter, above);
+        if (heights.highest - above > heights.lowest)
+            raise_over_disc(limit, wide, 0.5 * step.diameter, above, heights.lowest);
         above += step.length;
     }
     const FloorLimit floor(map, tool, piece_in_setup);
@@ -172,7 +173,7 @@ HeightField holder_clearance_over(const HeightField& stock, const ToolBody& body
         const HeightField& map = is_wide ? wide : stock;
         // Foam may lie anywhere in its cell, and the tip in its own.
         const double radius = 0.5 * step.diameter + gap.clearance + std::numbers::sqrt2 * map.cell;
-        raise_over_disc(is_wide ? wide_limit : limit, map, radius, up);
+        raise_over_disc(is_wide ? wide_limit : limit, map, radius, up, lowest);
     }
     if (!wide.height.empty()) raise_to_coarser(limit, wide_limit, gap.wide_cells);
     return limit;

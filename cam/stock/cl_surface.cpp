@@ -12,9 +12,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
@@ -112,6 +114,15 @@ ToolDilation ToolDilation::of_negative_cl_surface(const HeightField& negative_cl
     return dilation;
 }
 
+HeightField ToolDilation::bounds() const {
+    const HeightField tiles = coarser(*target_, FieldTiles::side);
+    // From the middle of a tile to a cell of it, to what the tool touches there, and to the middle of its tile.
+    const double reach = static_cast<double>(drop_.size()) * target_->cell + std::numbers::sqrt2 * tiles.cell;
+    HeightField bounds = dilate_by_disc(tiles, reach);
+    for (float& z : bounds.height) z += static_cast<float>(allowance_);
+    return bounds;
+}
+
 void ToolDilation::take(const HeightField& target) {
     target_ = &target;
     blocks_ = (target.columns + block - 1) / block;
@@ -188,42 +199,89 @@ void ToolDilation::fill(std::size_t row, std::size_t first, std::size_t end, flo
     }
 }
 
+namespace {
+
+// The cells of a line of cells that lie within `past` of an interval.
+CellSpan cells_near(double low, double high, double past, double cell, std::size_t count) {
+    const auto first = static_cast<std::size_t>(std::max(0.0, std::floor((low - past) / cell)));
+    const double end = std::max(0.0, std::floor((high + past) / cell) + 1);
+    return {first, std::min(count, static_cast<std::size_t>(end))};
+}
+
+// How far a cell of that line, `inner` to both sides of its middle, lies beside an interval.
+double beside(double low, double high, double cell, std::size_t index, double inner) {
+    const double middle = cell * (static_cast<double>(index) + 0.5);
+    return std::max({0.0, low - middle - inner, middle - high - inner});
+}
+
+}  // namespace
+
 double ToolDilation::height(double x, double y, const Bounds& asked) const {
     const HeightField& map = *target_;
     const RoundProfile profile = profile_of(tool_, allowance_);
     const double past = profile.radius + inner_;
-    const auto first = [&](double at) {
-        return static_cast<std::size_t>(std::max(0.0, std::floor((at - past) / map.cell)));
-    };
-    const auto end = [&](double at, std::size_t count) {
-        return std::min(count, static_cast<std::size_t>(std::max(0.0, std::floor((at + past) / map.cell) + 1)));
-    };
-    const auto beside = [&](double at, std::size_t cell) {
-        return std::max(0.0, std::abs(map.cell * (static_cast<double>(cell) + 0.5) - at) - inner_);
-    };
     double least = asked.low;
-    const std::size_t first_column = first(x);
-    const std::size_t end_column = end(x, map.columns);
-    const std::size_t first_row = first(y);
-    const std::size_t end_row = end(y, map.rows);
-    if (first_column >= end_column || first_row >= end_row) return least;
+    const CellSpan columns = cells_near(x, x, past, map.cell, map.columns);
+    const CellSpan rows = cells_near(y, y, past, map.cell, map.rows);
+    if (columns.first >= columns.end || rows.first >= rows.end) return least;
     const auto take_row = [&](std::size_t row) {
-        const double v = beside(y, row);
-        const double top = static_cast<double>(highest(row, first_column, end_column)) + allowance_;
+        const double v = beside(y, y, map.cell, row, inner_);
+        const double top = static_cast<double>(highest(row, columns.first, columns.end)) + allowance_;
         if (top - profile.height(v) <= least) return;
         const float* own = &map.height[row * map.columns];
-        for (std::size_t column = first_column; column < end_column; ++column) {
+        for (std::size_t column = columns.first; column < columns.end; ++column) {
             const double high = static_cast<double>(own[column]) + allowance_;
             if (high <= least) continue;
-            const double u = beside(x, column);
+            const double u = beside(x, x, map.cell, column, inner_);
             least = std::max(least, high - profile.height(std::sqrt(u * u + v * v)));
         }
     };
     // From the middle outwards, so that more of the rows are too low.
-    const std::size_t middle = std::clamp(static_cast<std::size_t>(std::max(0.0, y / map.cell)), first_row, end_row);
-    for (std::size_t row = middle; row < end_row && least < asked.high; ++row) take_row(row);
-    for (std::size_t row = middle; row > first_row && least < asked.high; --row) take_row(row - 1);
+    const std::size_t middle = std::clamp(static_cast<std::size_t>(std::max(0.0, y / map.cell)), rows.first, rows.end);
+    for (std::size_t row = middle; row < rows.end && least < asked.high; ++row) take_row(row);
+    for (std::size_t row = middle; row > rows.first && least < asked.high; --row) take_row(row - 1);
     return least;
+}
+
+void ToolDilation::heights_along(std::span<const Point2> places, const Bounds& asked, std::span<float> heights) const {
+    assert(heights.size() == places.size());
+    struct Raising {
+        std::size_t column = 0;
+        std::size_t row = 0;
+        double high = 0;
+    };
+    const HeightField& map = *target_;
+    const RoundProfile profile = profile_of(tool_, allowance_);
+    const double past = profile.radius + inner_;
+    Rectangle2 box;
+    for (const Point2& place : places) box.include(place);
+    const CellSpan columns = cells_near(box.min.x, box.max.x, past, map.cell, map.columns);
+    const CellSpan rows = cells_near(box.min.y, box.max.y, past, map.cell, map.rows);
+    std::vector<Raising> raising;
+    for (std::size_t row = rows.first; row < rows.end && columns.first < columns.end; ++row) {
+        const double v = beside(box.min.y, box.max.y, map.cell, row, inner_);
+        const double top = static_cast<double>(highest(row, columns.first, columns.end)) + allowance_;
+        if (top - profile.height(v) <= asked.low) continue;
+        for (std::size_t column = columns.first; column < columns.end; ++column) {
+            const double high = static_cast<double>(map.at(column, row)) + allowance_;
+            if (high <= asked.low) continue;
+            const double u = beside(box.min.x, box.max.x, map.cell, column, inner_);
+            if (high - profile.height(std::sqrt(u * u + v * v)) > asked.low) raising.push_back({column, row, high});
+        }
+    }
+    auto least = static_cast<float>(asked.low);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (static_cast<double>(least) < asked.high) {
+            double height = static_cast<double>(least);
+            for (const Raising& cell : raising) {
+                const double u = beside(places[i].x, places[i].x, map.cell, cell.column, inner_);
+                const double v = beside(places[i].y, places[i].y, map.cell, cell.row, inner_);
+                height = std::max(height, cell.high - profile.height(std::sqrt(u * u + v * v)));
+            }
+            least = static_cast<float>(height);
+        }
+        heights[i] = least;
+    }
 }
 
 namespace {
@@ -236,6 +294,17 @@ HeightField filled(const HeightField& map, const ToolDilation& dilation) {
         }
     });
     return result;
+}
+
+// In tiles; the rest stays.
+void fill_tiles(HeightField& map, const ToolDilation& dilation, const FieldTiles& tiles) {
+    parallel_ranges(0, map.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t row = first; row < end; ++row) {
+            for (const CellSpan& span : tiles.spans(row)) {
+                dilation.fill(row, span.first, span.end, &map.height[row * map.columns + span.first]);
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -255,6 +324,28 @@ bool is_of_tool(const HeightField& tip, const ToolDilation& tool, std::size_t ce
 
 HeightField cl_surface(const HeightField& target, const CuttingTool& tool, const DilationOptions& options) {
     return filled(target, ToolDilation(target, tool, options));
+}
+
+HeightField cl_surface(const ToolDilation& tool, const FieldTiles& tiles) {
+    const HeightField bounds = tool.bounds();
+    HeightField tip = tool.target();
+    parallel_for(0, tip.rows, [&](std::size_t row) {
+        const float* bound = &bounds.height[row / FieldTiles::side * bounds.columns];
+        float* own = &tip.height[row * tip.columns];
+        for (std::size_t column = 0; column < tip.columns; ++column) own[column] = bound[column / FieldTiles::side];
+    });
+    fill_tiles(tip, tool, tiles);
+    return tip;
+}
+
+HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool, const FieldTiles& tiles) {
+    HeightField negative = tip;
+    for (float& z : negative.height) z = -z;
+    HeightField remaining = tip;
+    std::fill(remaining.height.begin(), remaining.height.end(), HeightField::nothing);
+    fill_tiles(remaining, ToolDilation::of_negative_cl_surface(negative, tool), tiles);
+    for (float& z : remaining.height) z = -z;
+    return remaining;
 }
 
 HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool) {

@@ -8,11 +8,14 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
 #include "cam/setup/setup.h"
+#include "segment/mesh/polygon.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/field_tiles.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -72,6 +75,15 @@ class ToolDilation {
     double height(double x, double y) const { return height(x, y, Bounds()); }
     double height(double x, double y, const Bounds& asked) const;
 
+    // Per place the greatest height at it and those before, from `low` on. Places are near to each other: O((radius /
+    // cell)^2 + places * cells that may raise a tip in the box around them above `low`).
+    void heights_along(std::span<const Point2> places, const Bounds& asked, std::span<float> heights) const;
+
+    const HeightField& target() const { return *target_; }
+
+    // At least the height of the tip over each tile of 16 x 16 cells (FieldTiles), in a map of these. O(cells).
+    HeightField bounds() const;
+
     // What remains where the tip stands over the centre of every cell: fill() then gives its height at the centres of
     // cells, and map and result are both the negative of heights.
     static ToolDilation of_negative_cl_surface(const HeightField& negative_cl_surface, const CuttingTool& tool);
@@ -103,9 +115,16 @@ bool is_of_tool(const HeightField& tip, const ToolDilation& tool, std::size_t ce
 // diameter, stays at least `allowance` away from the target. On several threads; the result does not depend on them.
 HeightField cl_surface(const HeightField& target, const CuttingTool& tool, const DilationOptions& options = {});
 
+// The same in tiles of the target's cells. In all others a bound: the highest of the target within two tiles of the
+// tool, from which on the tip may stand there too.
+HeightField cl_surface(const ToolDilation& tool, const FieldTiles& tiles);
+
 // The surface that remains where the tip has stood at its least height over the centre of every cell (erosion of the
 // CL surface by the tool): nothing that the tool reaches from this direction can be lower. Cells beside the map are
 // not visited. Cost as of cl_surface.
 HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool);
+
+// The same in tiles; infinite in all others.
+HeightField remaining_surface(const HeightField& tip, const CuttingTool& tool, const FieldTiles& tiles);
 
 }  // namespace qchopper

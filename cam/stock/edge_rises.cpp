@@ -83,17 +83,14 @@ bool EdgeRises::rise_along(std::uint64_t side, const ToolDilation& tool, float* 
     const bool is_up = tip_.height[ends.cell] < tip_.height[ends.next];
     // Holder or foam may keep the tip off anywhere between.
     if (!is_of_tool(tip_, tool, is_up ? ends.next : ends.cell)) return false;
-    float highest = tip_.height[is_up ? ends.cell : ends.next];
-    const float enough = tip_.height[is_up ? ends.next : ends.cell];
+    std::array<Point2, steps - 1> places;
     for (std::size_t k = 1; k < steps; ++k) {
         const double share = static_cast<double>(k) / steps;
-        const Point2 p = ends.at(is_up ? share : 1 - share);
-        if (highest < enough) {
-            highest =
-                static_cast<float>(tool.height(p.x, p.y, {static_cast<double>(highest), static_cast<double>(enough)}));
-        }
-        rise[k - 1] = highest;
+        places[k - 1] = ends.at(is_up ? share : 1 - share);
     }
+    const float low = tip_.height[is_up ? ends.cell : ends.next];
+    const float high = tip_.height[is_up ? ends.next : ends.cell];
+    tool.heights_along(places, {static_cast<double>(low), static_cast<double>(high)}, {rise, places.size()});
     return true;
 }
 

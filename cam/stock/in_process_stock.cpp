@@ -2,7 +2,9 @@
 // within less than a cell of a step, seen from any direction: so each step is compared with the highest of 3 x 3 cells
 // of every other direction's map and one cell above it, and the answer is the step before. Along its own direction the
 // map of that direction tells where the ray begins, exactly. Above the highest cell of a square of another direction's
-// map all steps are over at once. O(cells * steps * directions) at most.
+// map all steps are over at once. O(cells * steps * directions) at most. Foam only gets less: the next time a ray
+// begins at the step at which it has met foam, with the same result (tests/cam/stock/in_process_stock_test.cpp,
+// RaysGoOnWhereTheyMetFoam).
 //
 // A tool that moves along a line comes lowest over a cell where the derivative of its height vanishes: on a level line
 // where it is nearest, and a ball of radius R on a slope m beside that, by m * sqrt((R^2 - d^2) / (1 + m^2)) for a cell
@@ -18,6 +20,8 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 #include "base/box.h"
 #include "base/parallel.h"
@@ -34,7 +38,10 @@ constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr std::size_t cells_at_once = 64;                    // of a row
 constexpr double min_way = 1e-6;                             // mm across; a shorter line goes straight down
 constexpr double min_sine = 1e-9;                            // of the angle of a line and a row
-constexpr double square = 16;                                // cells of a map of which the highest is known
+constexpr std::array<std::size_t, 2> squares{64, 16};        // cells of a map, each way, of which the highest is known
+// Of Seen: the ray has met no foam at all; nothing is known of it. Longer rays are asked from below these on.
+constexpr std::uint16_t no_foam = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint16_t unknown = no_foam - 1;
 
 // Where a line enters and leaves a box: from the higher parameter to the lower.
 struct Span {
@@ -122,109 +129,6 @@ bool is_above(const HeightField& map, Vec3 p) {
     return cell && p.z > static_cast<double>(map.height[*cell]);
 }
 
-// What another direction removed, raised so that a sample speaks for all that is less than a cell away.
-class Raised {
- public:
-    // `ray_in_map`: from the map that is asked for.
-    Raised(HeightField down_to, const Pose& ray_in_map)
-        : down_to_(std::move(down_to)), ray_in_map_(ray_in_map), squares_(coarser(down_to_, square)) {}
-
-    // How many points from this one on, `step` apart along the ray, are surely removed: 0 if this one is not.
-    std::size_t removed_from(Vec3 on_ray, double step) const {
-        const Vec3 p = apply(ray_in_map_, on_ray);
-        if (!is_above(down_to_, p)) return 0;
-        const double wide = squares_.cell;
-        const double column = std::floor(p.x / wide);
-        const double row = std::floor(p.y / wide);
-        const float top = squares_.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
-        // A little inside, so that rounding puts no point beside the square.
-        const Vec3 along = rotate(ray_in_map_, {0, 0, step});
-        const double inside = 1e-6;
-        double steps = steps_within(p.z, static_cast<double>(top) + inside, infinite, along.z);
-        const double columns_end = std::min((column + 1) * wide, static_cast<double>(down_to_.columns) * down_to_.cell);
-        const double rows_end = std::min((row + 1) * wide, static_cast<double>(down_to_.rows) * down_to_.cell);
-        steps = std::min(steps, steps_within(p.x, column * wide + inside, columns_end - inside, along.x));
-        steps = std::min(steps, steps_within(p.y, row * wide + inside, rows_end - inside, along.y));
-        return 1 + static_cast<std::size_t>(std::clamp(steps, 0.0, max_steps));
-    }
-
- private:
-    static constexpr double max_steps = 1e6;
-
-    // How often `step` may be added so that it stays between two values; negative if it is not there now.
-    static double steps_within(double at, double low, double high, double step) {
-        if (!(at > low && at < high)) return -1;
-        if (step == 0) return infinite;
-        return std::floor((step > 0 ? high - at : low - at) / step);
-    }
-
-    HeightField down_to_;
-    Pose ray_in_map_;
-    HeightField squares_;  // the highest of each
-};
-
-class Rays {
- public:
-    // The block counts as larger by `more_cells`.
-    Rays(const Setup& setup, const HeightField& frame, std::vector<Raised> others, double more_cells)
-        : others_(std::move(others)) {
-        const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_field);
-        setup_in_map_ = map_in_setup;
-        tool_axis_ = rotate(map_in_setup, {0, 0, 1});
-        const double across = std::hypot(tool_axis_.x, tool_axis_.y);
-        box_ = setup.block_box();
-        const Vec3 more = more_cells * frame.cell * Vec3{1, 1, across};
-        box_.min = box_.min - more;
-        box_.max = box_.max + more;
-    }
-
-    // The highest foam over a cell whose own direction removed all above `top`.
-    float highest(double x, double y, double top, double step) const {
-        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), tool_axis_);
-        if (span.is_empty()) return HeightField::nothing;
-        const double begin = std::min(span.high, top);
-        const double z = first_left({x, y, begin}, -step, begin - span.low);
-        return z == infinite ? HeightField::nothing : static_cast<float>(std::min(begin, z + step));
-    }
-
-    // The lowest one.
-    float lowest(double x, double y, double top, double step) const {
-        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), tool_axis_);
-        if (span.is_empty()) return HeightField::nothing;
-        const double z = first_left({x, y, span.low}, step, std::min(span.high, top) - span.low);
-        return z == infinite ? HeightField::nothing : static_cast<float>(std::max(span.low, z - step));
-    }
-
- private:
-    // The height of the first point of a ray, in steps, that is not removed; infinite if all are to a distance.
-    double first_left(Vec3 from, double step, double far) const {
-        std::size_t last = 0;  // what removed the step before is asked first
-        for (std::size_t k = 0; static_cast<double>(k) * std::abs(step) < far;) {
-            const double z = from.z + static_cast<double>(k) * step;
-            const std::size_t removed = removed_from({from.x, from.y, z}, step, last);
-            if (removed == 0) return z;
-            k += removed;
-        }
-        return infinite;
-    }
-
-    std::size_t removed_from(Vec3 in_map, double step, std::size_t& last) const {
-        for (std::size_t k = 0; k < others_.size(); ++k) {
-            const std::size_t i = last + k < others_.size() ? last + k : last + k - others_.size();
-            const std::size_t removed = others_[i].removed_from(in_map, step);
-            if (removed == 0) continue;
-            last = i;
-            return removed;
-        }
-        return 0;
-    }
-
-    std::vector<Raised> others_;
-    Pose setup_in_map_;  // takes map coordinates to those of the setup
-    Vec3 tool_axis_;
-    Box box_;
-};
-
 }  // namespace
 
 ToolSweep::ToolSweep(const CuttingTool& tool, double cell, double slack, StockCells kind)
@@ -296,60 +200,245 @@ double ToolSweep::sweep(HeightField& map, HeightField& other, Vec3 from, Vec3 to
     return lowered * cell_ * cell_;
 }
 
-InProcessStock::InProcessStock(const Setup& setup, StockCells kind) : setup_(&setup), kind_(kind) {}
+namespace {
 
-template <class Height>
-HeightField InProcessStock::mapped(std::size_t orientation, const HeightField& frame, const Height& height_of) const {
-    std::vector<Raised> others;
-    const HeightField* own = nullptr;
-    for (const Removed& removed : removed_) {
-        if (removed.orientation == orientation) {
-            own = &removed.down_to;
-            continue;
-        }
-        assert(removed.down_to.cell == frame.cell);
-        HeightField raised = removed.down_to;
-        if (kind_ == StockCells::whole) {
-            raised = dilate_by_disc(raised, std::numbers::sqrt2 * (frame.cell + 1e-6));
-            for (float& height : raised.height) height += static_cast<float>(frame.cell);
-        }
-        others.emplace_back(std::move(raised), removed.down_to.piece_in_field * inverse(frame.piece_in_field));
+// What another direction removed, for rays that go a step at a time.
+class RemovedByOther {
+ public:
+    // `ray_in_map`: from the map that is asked for, along whose z a step goes.
+    RemovedByOther(const HeightField& down_to, const std::vector<HeightField>& tops, const Pose& ray_in_map,
+                   double step)
+        : down_to_(&down_to), tops_(&tops), ray_in_map_(ray_in_map), per_cell_(1 / down_to.cell) {
+        const Vec3 along = rotate(ray_in_map, {0, 0, step});
+        along_ = {along.x * per_cell_, along.y * per_cell_, along.z};
+        inverse_ = {1 / std::abs(along_.x), 1 / std::abs(along_.y), 1 / std::abs(along_.z)};
     }
-    assert(own == nullptr || own->height.size() == frame.height.size());
-    const Rays rays(*setup_, frame, std::move(others), kind_ == StockCells::whole ? 1 : 0);
+
+    // How many points of the ray from this one on are surely removed: 0 if this one is not.
+    std::size_t removed_from(Vec3 on_ray) const {
+        const Vec3 p = apply(ray_in_map_, on_ray);
+        const double column = p.x * per_cell_;
+        const double row = p.y * per_cell_;
+        const std::optional<std::size_t> cell = down_to_->cell_holding(column, row);
+        if (!cell || !(p.z > static_cast<double>(down_to_->height[*cell]))) return 0;
+        for (std::size_t k = 0; k < squares.size(); ++k) {
+            const std::size_t wide = squares[k];
+            const std::size_t c = static_cast<std::size_t>(column) / wide;
+            const std::size_t r = static_cast<std::size_t>(row) / wide;
+            const double above = p.z - static_cast<double>((*tops_)[k].at(c, r)) - inside;
+            if (!(above > 0)) continue;
+            double steps = along_.z < 0 ? above * inverse_.z : infinite;
+            steps = std::min(
+                steps, steps_in(column, c * wide, std::min((c + 1) * wide, down_to_->columns), along_.x, inverse_.x));
+            steps = std::min(steps,
+                             steps_in(row, r * wide, std::min((r + 1) * wide, down_to_->rows), along_.y, inverse_.y));
+            return 1 + static_cast<std::size_t>(std::clamp(steps, 0.0, max_steps));
+        }
+        return 1;
+    }
+
+ private:
+    static constexpr double max_steps = 1e6;
+    static constexpr double inside = 1e-6;  // so that rounding puts no point beside a square
+
+    // How often a step may be added so that it stays between two cells. Without a step: always, as the smaller of a
+    // number and of what is not one is the number.
+    static double steps_in(double at, std::size_t low, std::size_t high, double step, double inverse) {
+        return ((step > 0 ? static_cast<double>(high) - at : at - static_cast<double>(low)) - inside) * inverse;
+    }
+
+    const HeightField* down_to_;
+    const std::vector<HeightField>* tops_;  // the highest of the squares of each size
+    Pose ray_in_map_;
+    double per_cell_;
+    Vec3 along_;  // of a step; x and y in cells
+    Vec3 inverse_;
+};
+
+}  // namespace
+
+// The rays of the cells of a map, in its coordinates.
+class InProcessStock::Rays {
+ public:
+    // The block counts as larger by `more_cells`. `own`: down to where the direction itself has removed all; may be
+    // null.
+    Rays(const Setup& setup, const HeightField& frame, const HeightField* own, std::vector<RemovedByOther> others,
+         double more_cells)
+        : own_(own), others_(std::move(others)), cell_(frame.cell), columns_(frame.columns) {
+        const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_field);
+        setup_in_map_ = map_in_setup;
+        tool_axis_ = rotate(map_in_setup, {0, 0, 1});
+        const double across = std::hypot(tool_axis_.x, tool_axis_.y);
+        box_ = setup.block_box();
+        const Vec3 more = more_cells * frame.cell * Vec3{1, 1, across};
+        box_.min = box_.min - more;
+        box_.max = box_.max + more;
+    }
+
+    // The highest foam over a cell. `steps`: as in Seen; `is_current`: whether it holds for what is removed now.
+    float highest(std::size_t cell, std::uint16_t& steps, bool is_current) const {
+        if (steps == no_foam) return HeightField::nothing;
+        const Vec3 middle = middle_of(cell);
+        const Span span = span_of(middle);
+        if (span.is_empty()) return none(steps);
+        const double begin = std::min(span.high, top_of(cell));
+        const bool is_known = steps != unknown;
+        const std::size_t first = is_known ? steps : 0;
+        const std::optional<std::size_t> left =
+            is_known && is_current ? first : first_left({middle.x, middle.y, begin}, -cell_, begin - span.low, first);
+        if (!left) return none(steps);
+        steps = static_cast<std::uint16_t>(std::min<std::size_t>(*left, unknown - 1));
+        const double z = begin - static_cast<double>(*left) * cell_;
+        return static_cast<float>(std::min(begin, z + cell_));
+    }
+
+    // The lowest one.
+    float lowest(std::size_t cell) const {
+        const Vec3 middle = middle_of(cell);
+        const Span span = span_of(middle);
+        if (span.is_empty()) return HeightField::nothing;
+        const double far = std::min(span.high, top_of(cell)) - span.low;
+        const std::optional<std::size_t> left = first_left({middle.x, middle.y, span.low}, cell_, far, 0);
+        if (!left) return HeightField::nothing;
+        const double z = span.low + static_cast<double>(*left) * cell_;
+        return static_cast<float>(std::max(span.low, z - cell_));
+    }
+
+ private:
+    static float none(std::uint16_t& steps) {
+        steps = no_foam;
+        return HeightField::nothing;
+    }
+    Vec3 middle_of(std::size_t cell) const {
+        return {cell_ * (static_cast<double>(cell % columns_) + 0.5),
+                cell_ * (static_cast<double>(cell / columns_) + 0.5), 0};
+    }
+    Span span_of(Vec3 middle) const { return span_in(box_, apply(setup_in_map_, middle), tool_axis_); }
+    double top_of(std::size_t cell) const {
+        return own_ != nullptr ? static_cast<double>(own_->height[cell]) : infinite;
+    }
+
+    // The first point of a ray, in steps from its beginning, that is not removed; none if all are to a distance. The
+    // points before `first` are removed.
+    std::optional<std::size_t> first_left(Vec3 from, double step, double far, std::size_t first) const {
+        std::size_t last = 0;  // what removed the step before is asked first
+        for (std::size_t k = first; static_cast<double>(k) * std::abs(step) < far;) {
+            const double z = from.z + static_cast<double>(k) * step;
+            const std::size_t removed = removed_from({from.x, from.y, z}, last);
+            if (removed == 0) return k;
+            k += removed;
+        }
+        return std::nullopt;
+    }
+
+    std::size_t removed_from(Vec3 in_map, std::size_t& last) const {
+        for (std::size_t k = 0; k < others_.size(); ++k) {
+            const std::size_t i = last + k < others_.size() ? last + k : last + k - others_.size();
+            const std::size_t removed = others_[i].removed_from(in_map);
+            if (removed == 0) continue;
+            last = i;
+            return removed;
+        }
+        return 0;
+    }
+
+    const HeightField* own_;
+    std::vector<RemovedByOther> others_;
+    double cell_;
+    std::size_t columns_;
+    Pose setup_in_map_;  // takes map coordinates to those of the setup
+    Vec3 tool_axis_;
+    Box box_;
+};
+
+InProcessStock::InProcessStock(const Setup& setup, StockCells kind)
+    : setup_(&setup),
+      kind_(kind),
+      seen_(setup.access.orientations.size()),
+      removals_(setup.access.orientations.size(), 0) {}
+
+const InProcessStock::Removed* InProcessStock::removed_along(std::size_t orientation) const {
+    const auto found = std::ranges::find(removed_, orientation, &Removed::orientation);
+    return found != removed_.end() ? &*found : nullptr;
+}
+
+InProcessStock::Rays InProcessStock::rays_along(std::size_t orientation, const HeightField& frame, double step) {
+    std::vector<RemovedByOther> others;
+    for (Removed& removed : removed_) {
+        if (removed.orientation == orientation) continue;
+        assert(removed.down_to.cell == frame.cell);
+        const bool is_whole = kind_ == StockCells::whole;
+        if (removed.tops.empty()) {
+            if (is_whole) {
+                removed.raised = dilate_by_disc(removed.down_to, std::numbers::sqrt2 * (frame.cell + 1e-6));
+                for (float& height : removed.raised.height) height += static_cast<float>(frame.cell);
+            }
+            for (const std::size_t wide : squares) {
+                const HeightField& map = is_whole ? removed.raised : removed.down_to;
+                removed.tops.push_back(coarser(map, static_cast<double>(wide)));
+            }
+        }
+        others.emplace_back(is_whole ? removed.raised : removed.down_to, removed.tops,
+                            removed.down_to.piece_in_field * inverse(frame.piece_in_field), step);
+    }
+    const Removed* own = removed_along(orientation);
+    assert(own == nullptr || own->down_to.height.size() == frame.height.size());
+    return {*setup_, frame, own != nullptr ? &own->down_to : nullptr, std::move(others),
+            kind_ == StockCells::whole ? 1.0 : 0.0};
+}
+
+InProcessStock::Seen& InProcessStock::seen_along(std::size_t orientation, std::size_t cells) {
+    Seen& seen = seen_[orientation];
+    if (seen.steps.size() != cells) seen.steps.assign(cells, unknown);
+    return seen;
+}
+
+HeightField InProcessStock::highest(std::size_t orientation, const HeightField& frame) {
+    const Rays rays = rays_along(orientation, frame, -frame.cell);
+    Seen& seen = seen_along(orientation, frame.height.size());
+    const std::size_t by_others =
+        std::accumulate(removals_.begin(), removals_.end(), std::size_t{0}) - removals_[orientation];
+    const bool is_current = seen.removals == by_others;
     HeightField result = frame;
     parallel_for(0, frame.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < frame.columns; ++column) {
-            const double x = frame.cell * (static_cast<double>(column) + 0.5);
-            const double y = frame.cell * (static_cast<double>(row) + 0.5);
-            const double top = own != nullptr ? static_cast<double>(own->at(column, row)) : infinite;
-            result.height[row * frame.columns + column] = height_of(rays, x, y, top);
+        for (std::size_t i = row * frame.columns; i < (row + 1) * frame.columns; ++i) {
+            result.height[i] = rays.highest(i, seen.steps[i], is_current);
+        }
+    });
+    seen.removals = by_others;
+    return result;
+}
+
+HeightField InProcessStock::lowest(std::size_t orientation, const HeightField& frame) {
+    const Rays rays = rays_along(orientation, frame, frame.cell);
+    HeightField result = frame;
+    parallel_for(0, frame.rows, [&](std::size_t row) {
+        for (std::size_t i = row * frame.columns; i < (row + 1) * frame.columns; ++i) {
+            result.height[i] = rays.lowest(i);
         }
     });
     return result;
 }
 
-HeightField InProcessStock::highest(std::size_t orientation, const HeightField& frame) const {
-    return mapped(orientation, frame, [&](const Rays& rays, double x, double y, double top) {
-        return rays.highest(x, y, top, frame.cell);
-    });
-}
-
-HeightField InProcessStock::lowest(std::size_t orientation, const HeightField& frame) const {
-    return mapped(orientation, frame,
-                  [&](const Rays& rays, double x, double y, double top) { return rays.lowest(x, y, top, frame.cell); });
-}
-
 void InProcessStock::remove_above(std::size_t orientation, const HeightField& map) {
-    for (Removed& removed : removed_) {
-        if (removed.orientation != orientation) continue;
-        assert(removed.down_to.height.size() == map.height.size());
-        for (std::size_t i = 0; i < map.height.size(); ++i) {
-            removed.down_to.height[i] = std::min(removed.down_to.height[i], map.height[i]);
-        }
-        return;
+    Seen& seen = seen_along(orientation, map.height.size());
+    ++removals_[orientation];
+    auto found = std::ranges::find(removed_, orientation, &Removed::orientation);
+    if (found == removed_.end()) {
+        removed_.push_back({orientation, map, {}, {}});
+        found = removed_.end() - 1;
+        std::fill(found->down_to.height.begin(), found->down_to.height.end(), std::numeric_limits<float>::infinity());
     }
-    removed_.push_back({orientation, map});
+    found->raised = {};
+    found->tops.clear();
+    std::vector<float>& down_to = found->down_to.height;
+    assert(down_to.size() == map.height.size());
+    for (std::size_t i = 0; i < down_to.size(); ++i) {
+        if (!(map.height[i] < down_to[i])) continue;
+        down_to[i] = map.height[i];
+        // Its ray begins elsewhere from now on.
+        if (seen.steps[i] != no_foam) seen.steps[i] = unknown;
+    }
 }
 
 bool InProcessStock::may_be_stock(Vec3 point) const {

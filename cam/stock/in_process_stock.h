@@ -50,12 +50,13 @@ class InProcessStock {
 
     // The highest foam along a direction over each whole cell, or over its middle, of `frame`, whose heights are not
     // looked at; `nothing` where there is none. The frame is a map of that direction (piece_height_field()); all frames
-    // have cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam.
-    HeightField highest(std::size_t orientation, const HeightField& frame) const;
+    // have cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam, and the next
+    // time begins there unless its own direction has removed foam in its cell since.
+    HeightField highest(std::size_t orientation, const HeightField& frame);
 
     // The same for the lowest foam: all of it lies above. Under it there may be air, where other directions or the
-    // sides of the block end it.
-    HeightField lowest(std::size_t orientation, const HeightField& frame) const;
+    // sides of the block end it. Rays begin anew.
+    HeightField lowest(std::size_t orientation, const HeightField& frame);
 
     // All above the heights of a map of a direction is gone: infinite where nothing was removed. The maps of one
     // direction must have the same cells.
@@ -68,15 +69,26 @@ class InProcessStock {
     struct Removed {
         std::size_t orientation = 0;
         HeightField down_to;
+        // How rays of other directions see it, made when they ask for it: raised, so that a sample speaks for all that
+        // is less than a cell away, if cells are whole; and the highest of squares of some sizes.
+        HeightField raised;
+        std::vector<HeightField> tops;
     };
-    // Per cell what a function of its rays, the centre of the cell and the height down to which its own direction has
-    // removed all says.
-    template <class Height>
-    HeightField mapped(std::size_t orientation, const HeightField& frame, const Height& height_of) const;
+    // How far down the rays of a direction have found no foam, and what had been removed then.
+    struct Seen {
+        std::vector<std::uint16_t> steps;  // per cell
+        std::size_t removals = 0;          // by other directions
+    };
+    class Rays;
+    Rays rays_along(std::size_t orientation, const HeightField& frame, double step);
+    const Removed* removed_along(std::size_t orientation) const;
+    Seen& seen_along(std::size_t orientation, std::size_t cells);
 
     const Setup* setup_;
     StockCells kind_;
     std::vector<Removed> removed_;
+    std::vector<Seen> seen_;             // by direction
+    std::vector<std::size_t> removals_;  // of each direction
 };
 
 }  // namespace qchopper

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -27,10 +29,11 @@ constexpr double beside_line = 0.075;  // mm
 
 // The least float that is not below a height; never -0, which would make the result depend on the order.
 float rounded_up(double height) {
-    const auto nearest = static_cast<float>(height);
-    const float up =
-        static_cast<double>(nearest) < height ? std::nextafter(nearest, std::numeric_limits<float>::max()) : nearest;
-    return up + 0.0F;
+    const float nearest = static_cast<float>(height) + 0.0F;
+    if (!(static_cast<double>(nearest) < height)) return nearest;
+    // The bits of a float count up with it above zero, and down below.
+    const auto bits = std::bit_cast<std::int32_t>(nearest);
+    return std::bit_cast<float>(bits >= 0 ? bits + 1 : bits - 1) + 0.0F;
 }
 
 // A convex polygon in cells across and mm along the direction: a triangle cut by two lines has five corners.

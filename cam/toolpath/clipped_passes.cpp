@@ -16,7 +16,6 @@ namespace qchopper {
 namespace {
 
 constexpr double min_part = 2;       // mm of a part of a pass that is worth a way there
-constexpr double touching = 1.5;     // mm
 constexpr double square = 8;         // cells of foam on each side
 constexpr float rounding = 1e-3F;    // mm, of heights in single precision
 constexpr double min_length = 1e-6;  // mm; rounding leaves less

@@ -40,36 +40,40 @@ HolderGap finishing_gap(const Setup& setup, double stock_cell) {
     return {min_clearance + (is_alone ? 0 : clearance_cells * stock_cell), 1};
 }
 
-HeightField limit_over_finished(HeightField piece, double foam_left, const ToolBody& body, const HolderGap& gap) {
+HeightField limit_over_finished(HeightField piece, double foam_left, const ToolBody& body, const HolderGap& gap,
+                                double lowest) {
     // The highest point of a cell may lie so much nearer than its middle, at which foam is known.
     const double nearer = half_diagonal * piece.cell;
     for (float& z : piece.height) z += static_cast<float>(foam_left + nearer);
-    return holder_clearance_over(piece, body, {gap.clearance - nearer, gap.wide_cells});
+    return holder_clearance_over(piece, body, {gap.clearance - nearer, gap.wide_cells}, lowest);
 }
 
 HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool& tool, const ToolBody& body,
-                             const HolderGap& gap) {
-    HeightField limit = holder_clearance_over(centre_stock, body, gap);
+                             const HolderGap& gap, double lowest) {
+    HeightField limit = holder_clearance_over(centre_stock, body, gap, lowest);
     // The tip may lie anywhere in its cell.
     const double under = std::max(0.0, 0.5 * tool.diameter - flute_rim) + half_diagonal * centre_stock.cell;
-    raise_over_disc(limit, centre_stock, under, tool.flute_length);
+    raise_over_disc(limit, centre_stock, under, tool.flute_length, lowest);
     return limit;
 }
 
-void raise_to_limit(HeightField& cl, const HeightField& limit) {
+void raise_to_limit(HeightField& cl, const HeightField& limit, const FieldTiles& tiles) {
     assert(limit.cell >= cl.cell);
     constexpr std::array<double, 3> places{-0.5, 0.5, 1.5};  // from the middle of one neighbour to that of the other
-    parallel_for(0, cl.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < cl.columns; ++column) {
-            double least = cl.at(column, row);
-            for (const double down : places) {
-                for (const double along : places) {
-                    const float other = limit.height_under(cl.cell * (static_cast<double>(column) + along),
-                                                           cl.cell * (static_cast<double>(row) + down));
-                    least = std::max(least, static_cast<double>(other));
-                }
+    const auto raise = [&](std::size_t column, std::size_t row) {
+        double least = cl.at(column, row);
+        for (const double down : places) {
+            for (const double along : places) {
+                const float other = limit.height_under(cl.cell * (static_cast<double>(column) + along),
+                                                       cl.cell * (static_cast<double>(row) + down));
+                least = std::max(least, static_cast<double>(other));
             }
-            cl.height[row * cl.columns + column] = static_cast<float>(least);
+        }
+        cl.height[row * cl.columns + column] = static_cast<float>(least);
+    };
+    parallel_for(0, cl.rows, [&](std::size_t row) {
+        for (const CellSpan& span : tiles.spans(row)) {
+            for (std::size_t column = span.first; column < span.end; ++column) raise(column, row);
         }
     });
 }

@@ -9,6 +9,7 @@
 #include "cam/setup/holder_clearance.h"
 #include "cam/setup/setup.h"
 #include "cam/toolpath/toolpath_linker.h"
+#include "segment/raster/field_tiles.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -22,15 +23,16 @@ double finishing_floor(const Setup& setup, Vec3 tool_axis, double radius);
 HolderGap finishing_gap(const Setup& setup, double stock_cell);
 
 // Over the piece, a map of its highest points, with so much foam on it as finishing leaves: passes that go deeper stay
-// blocked whatever else is milled. O(cells * widest radius / cell).
-HeightField limit_over_finished(HeightField piece, double foam_left, const ToolBody& body, const HolderGap& gap);
+// blocked whatever else is milled. Limits below `lowest` may be lower. O(cells * widest radius / cell).
+HeightField limit_over_finished(HeightField piece, double foam_left, const ToolBody& body, const HolderGap& gap,
+                                double lowest);
 
-// Over foam that stands at the centres of cells, flute included. Cost as above.
+// Over foam that stands at the centres of cells, flute included. Cost and `lowest` as above.
 HeightField limit_over_stock(const HeightField& centre_stock, const CuttingTool& tool, const ToolBody& body,
-                             const HolderGap& gap);
+                             const HolderGap& gap, double lowest);
 
 // Raises a CL surface, so that no straight line between the centres of neighbouring cells lies below the limit
-// (tests/cam/toolpath/passes_and_links_test.cpp). O(cells).
-void raise_to_limit(HeightField& cl, const HeightField& limit);
+// (tests/cam/toolpath/passes_and_links_test.cpp). In tiles alone. O(cells).
+void raise_to_limit(HeightField& cl, const HeightField& limit, const FieldTiles& tiles);
 
 }  // namespace qchopper

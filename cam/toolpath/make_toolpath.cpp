@@ -139,7 +139,7 @@ class ToolpathMaker {
     ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_); }
 
     // Fills what is the same for all kinds of operation.
-    MillingSpace space_of(const HeightField& frame, const Operation& operation) const {
+    MillingSpace space_of(const HeightField& frame, const Operation& operation) {
         MillingSpace space;
         space.stock = stock_.highest(operation.orientation, frame);
         space.centre_stock = centre_stock_.highest(operation.orientation, frame);
@@ -167,7 +167,7 @@ class ToolpathMaker {
         raise_to_holder(cl, piece, body_of(tool_index), setup_.piece_in_setup);
         stay_near_stock(cl, stock_.lowest(orientation, cl), tool, operation.stepdown);
         if (settings_.beside_block) {
-            const InProcessStock block(setup_, StockCells::centres);
+            InProcessStock block(setup_, StockCells::centres);
             close_beside_stock(cl, block.highest(orientation, cl), *settings_.beside_block);
         }
         MillingSpace space = space_of(piece, operation);
@@ -225,22 +225,24 @@ class ToolpathMaker {
         operation.rounding = settings_.rounding;
         const double floor_z = finishing_floor(setup_, setup_.tool_axis(orientation), 0.5 * tool.diameter);
         auto over_piece = std::make_unique<ToolOverPiece>(target(orientation, settings_.cell, floor_z), tool);
-        HeightField own_cl =
-            cl_surface(over_piece->piece, tool, finishing_dilation_options);  // without holder and spindle
-        HeightField cl = finishing_cl_surface(operation, over_piece->piece, own_cl);
-        if (over_stock) raise_to_limit(cl, limit_now(operation));
-        const FinishingRegion region = finishing_region(operation, cl);
+        const bool has_floor = orientation == 0 && kind == OperationKind::finishing && !over_stock;
+        const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
+        FinishingTiles tiles = finishing_tiles(operation, over_piece->piece, floor, options);
+        HeightField own_cl = cl_surface(over_piece->tool, tiles.tip);  // without holder and spindle
+        HeightField cl = finishing_cl_surface(operation, over_piece->piece, own_cl, tiles.tip);
+        if (over_stock) raise_to_limit(cl, limit_now(operation, lowest_of(cl, tiles.tip)), tiles.tip);
+        const FinishingRegion region = finishing_region(operation, cl, tiles.surface);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
         if (is_empty && !over_stock) is_empty_.insert({tool_index, orientation});
-        const bool has_floor = orientation == 0 && kind == OperationKind::finishing && !over_stock;
         if (is_empty && !has_floor) return;
-        const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
         if (has_floor) options.floor = &floor;
         options.tool = &over_piece->tool;
+        options.tiles = &tiles.tip;
         std::vector<Pass> passes = finishing_passes(cl, tool, region, options, context_);
         passes = clear_of_sawn_faces(near_surface(passes, own_cl), own_cl, tool, setup_);
         own_cl = {};
-        PassesLeft left{std::move(operation), std::move(over_piece), std::move(cl), std::move(passes), left_.takes()};
+        PassesLeft left{std::move(operation), std::move(over_piece), std::move(cl),
+                        std::move(tiles),     std::move(passes),     left_.takes()};
         mill(left);
         if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
@@ -253,14 +255,32 @@ class ToolpathMaker {
         ToolDilation tool;
     };
 
+    // Where maps of a finishing are computed: what remains of the surface, and the tip of the tool.
+    struct FinishingTiles {
+        FieldTiles surface;
+        FieldTiles tip;
+    };
+
     // Passes of an operation that are not milled yet, over its CL surface.
     struct PassesLeft {
         Operation operation;  // without runs
         std::unique_ptr<ToolOverPiece> over_piece;
         HeightField cl;
+        FinishingTiles tiles;
         std::vector<Pass> passes;
         std::size_t take = 0;  // of RestMaterial; 0: the surface was given back
     };
+
+    static double lowest_of(const HeightField& cl, const FieldTiles& tiles) {
+        double lowest = std::numeric_limits<double>::infinity();
+        for (std::size_t row = 0; row < cl.rows; ++row) {
+            for (const CellSpan& span : tiles.spans(row)) {
+                const float* own = &cl.height[row * cl.columns];
+                lowest = std::min(lowest, static_cast<double>(*std::min_element(own + span.first, own + span.end)));
+            }
+        }
+        return lowest;
+    }
 
     static double lowest_of(const std::vector<Pass>& passes) {
         double lowest = std::numeric_limits<double>::infinity();
@@ -341,39 +361,62 @@ class ToolpathMaker {
             if (length < worth_another) continue;
             context_.check_cancelled();
             HeightField cl = left.cl;
-            raise_to_limit(cl, limit_now(left.operation));
-            const HeightField remaining = remaining_surface(cl, machine_.tools[tool]);
+            const FieldTiles& tiles = left.tiles.tip;
+            raise_to_limit(cl, limit_now(left.operation, lowest_of(cl, tiles)), tiles);
+            const HeightField remaining = remaining_surface(cl, machine_.tools[tool], left.tiles.surface);
             if (left_.give_back(left.take, remaining, near(left.operation))) is_any = true;
             left.take = 0;
         }
         return is_any;
     }
 
-    HeightField limit_now(const Operation& operation) {
+    // For CL surfaces that are never below `lowest`.
+    HeightField limit_now(const Operation& operation, double lowest) {
         const HeightField stock = centre_stock_.highest(operation.orientation, coarse_piece(operation.orientation));
         return limit_over_stock(stock, machine_.tools[operation.tool], body_of(operation.tool),
-                                finishing_gap(setup_, stock_cell_));
+                                finishing_gap(setup_, stock_cell_), lowest);
     }
 
     // Foam up to so much is as good as none.
     double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
 
+    // Those that what the operation may finish depends on, and what is near to the floor if there is one.
+    FinishingTiles finishing_tiles(const Operation& operation, const HeightField& piece, const FinishingRegion& floor,
+                                   const FinishingOptions& options) const {
+        const auto cells = [&](double length) { return static_cast<std::size_t>(std::ceil(length / piece.cell)); };
+        FieldTiles places = left_.places(piece, near(operation), worth(operation));
+        const FieldTiles surface = places.grown(cells(RestMaterial::examined(near(operation))) + 1);
+        for (std::size_t i = 0; i < floor.size(); ++i) {
+            if (floor[i] < not_finished) places.add(i);
+        }
+        const CuttingTool& tool = machine_.tools[operation.tool];
+        const double margin = std::max(finishing_margin(tool, options, piece.cell) + touching,
+                                       RestMaterial::examined(near(operation)) + 0.5 * tool.diameter + piece.cell);
+        return {surface, places.grown(cells(margin) + 1)};
+    }
+
     // A CL surface over the piece, raised for holder and spindle.
-    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField cl) {
+    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField cl,
+                                     const FieldTiles& tiles) {
         const ToolBody body = body_of(operation.tool);
         raise_to_holder(cl, piece, body, setup_.piece_in_setup);
         const double foam_left = operation.scallop + settings_.path_tolerance;
-        raise_to_limit(cl, limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
-                                               finishing_gap(setup_, stock_cell_)));
+        raise_to_limit(cl,
+                       limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
+                                           finishing_gap(setup_, stock_cell_), lowest_of(cl, tiles)),
+                       tiles);
         return cl;
     }
 
     // What the operation finishes over its CL surface.
-    FinishingRegion finishing_region(const Operation& operation, const HeightField& cl) {
-        const CuttingTool& tool = machine_.tools[operation.tool];
-        const bool is_fine = operation.kind == OperationKind::fine_finishing;
-        return left_.take(remaining_surface(cl, tool), near(operation), operation.stepover,
-                          is_fine ? near(operation) : 0, is_followed_twice(operation.tool));
+    FinishingRegion finishing_region(const Operation& operation, const HeightField& cl, const FieldTiles& tiles) {
+        return left_.take(remaining_surface(cl, machine_.tools[operation.tool], tiles), near(operation),
+                          operation.stepover, worth(operation), is_followed_twice(operation.tool));
+    }
+
+    // A fine tool goes on where others have left more than so much.
+    double worth(const Operation& operation) const {
+        return operation.kind == OperationKind::fine_finishing ? near(operation) : 0;
     }
 
     // The floor within a tool's width of the piece.

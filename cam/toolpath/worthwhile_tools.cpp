@@ -41,9 +41,12 @@ FinishedAreas finished_areas(const Setup& setup, const TriangleMesh& mesh, const
             context.check_cancelled();
             const double floor_z = finishing_floor(setup, setup.tool_axis(d), 0.5 * tool.diameter);
             const HeightField piece = piece_height_field(setup, mesh, d, {judged_cell, floor_z, tool.diameter});
-            HeightField cl = cl_surface(piece, tool);
+            const double near = scallop + judged_cell;
+            const auto cells = [](double length) { return static_cast<std::size_t>(length / judged_cell) + 2; };
+            const FieldTiles surface = left.places(piece, near).grown(cells(RestMaterial::examined(near)));
+            HeightField cl = cl_surface(ToolDilation(piece, tool), surface.grown(cells(0.5 * tool.diameter)));
             raise_to_holder(cl, piece, tool_body(tool, machine), setup.piece_in_setup);
-            left.take(remaining_surface(cl, tool), scallop + judged_cell, 0, 0, true);
+            left.take(remaining_surface(cl, tool, surface), near, 0, 0, true);
         }
         const double finished = areas.all * left.share_within(0);
         areas.of_tool.push_back(finished - before);

@@ -17,9 +17,12 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "segment/raster/cells_under.h"
 
 namespace qchopper {
 namespace {
+
+constexpr double rounding = 1e-3;  // mm, of heights in single precision
 
 struct DiscRow {
     std::ptrdiff_t row = 0;
@@ -41,7 +44,27 @@ std::vector<std::vector<DiscRow>> disc_rows(double cells) {
 
 }  // namespace
 
-HeightField dilate_by_disc(const HeightField& map, double radius) {
+namespace {
+
+// From the first cell of a row that is not lower than a height to the last one.
+std::vector<CellSpan> spans_from(const HeightField& map, float from) {
+    std::vector<CellSpan> spans(map.rows);
+    parallel_for(0, map.rows, [&](std::size_t row) {
+        const float* first = &map.height[row * map.columns];
+        const float* last = first + map.columns;
+        const auto is_high = [from](float height) { return height >= from; };
+        const float* high = std::find_if(first, last, is_high);
+        if (high == last) return;
+        spans[row].first = static_cast<std::size_t>(high - first);
+        while (!is_high(*(last - 1))) --last;
+        spans[row].end = static_cast<std::size_t>(last - first);
+    });
+    return spans;
+}
+
+}  // namespace
+
+HeightField dilate_by_disc(const HeightField& map, double radius, float from) {
     assert(radius >= 0);
     const double cells = radius / map.cell;
     const auto reach = static_cast<std::size_t>(cells);
@@ -51,20 +74,28 @@ HeightField dilate_by_disc(const HeightField& map, double radius) {
     for (std::size_t row = 0; row < map.rows; ++row) {
         std::copy_n(&map.height[row * map.columns], map.columns, &window[row * columns + reach]);
     }
+    const std::vector<CellSpan> spans = spans_from(map, from);
     HeightField highest = map;
     for (std::size_t level = 0; level < by_level.size(); ++level) {
         const std::size_t width = std::size_t{1} << level;
         parallel_for(0, map.rows, [&](std::size_t row) {
             float* own = &highest.height[row * map.columns];
             for (const DiscRow& part : by_level[level]) {
-                const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(row) + part.row;
-                if (from < 0 || from >= static_cast<std::ptrdiff_t>(map.rows)) continue;
-                const float* first = &window[static_cast<std::size_t>(from) * columns + reach - part.half];
+                const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) + part.row;
+                if (at < 0 || at >= static_cast<std::ptrdiff_t>(map.rows)) continue;
+                const auto source = static_cast<std::size_t>(at);
+                const CellSpan& span = spans[source];
+                if (span.first == span.end) continue;
+                const float* first = &window[source * columns + reach - part.half];
                 const float* last = first + (2 * part.half + 1 - width);
-                for (std::size_t c = 0; c < map.columns; ++c) own[c] = std::max({own[c], first[c], last[c]});
+                const std::size_t end = std::min(map.columns, span.end + part.half);
+                for (std::size_t c = span.first - std::min(span.first, part.half); c < end; ++c) {
+                    own[c] = std::max({own[c], first[c], last[c]});
+                }
             }
         });
         parallel_for(0, map.rows, [&](std::size_t row) {
+            if (spans[row].first == spans[row].end) return;
             float* own = &window[row * columns];
             for (std::size_t c = 0; c + width < columns; ++c) own[c] = std::max(own[c], own[c + width]);
         });
@@ -72,10 +103,11 @@ HeightField dilate_by_disc(const HeightField& map, double radius) {
     return highest;
 }
 
-void raise_over_disc(HeightField& tip, const HeightField& map, double radius, double above) {
+void raise_over_disc(HeightField& tip, const HeightField& map, double radius, double above, double lowest) {
     assert(tip.height.size() == map.height.size());
-    const HeightField highest = dilate_by_disc(map, radius);
     const auto less = static_cast<float>(above);
+    // A little more, for rounding.
+    const HeightField highest = dilate_by_disc(map, radius, static_cast<float>(lowest + above - rounding));
     for (std::size_t i = 0; i < tip.height.size(); ++i) {
         tip.height[i] = std::max(tip.height[i], highest.height[i] - less);
     }

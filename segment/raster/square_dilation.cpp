@@ -1,10 +1,11 @@
 // A square is taken along rows and then along columns; of a line, the best of each window is found by doubling windows
 // in place (H. Yuan and M. J. Atallah, "Data structures for range minimum queries in multidimensional arrays", 2010).
-// O(cells * log by), the memory of the result and of a line per thread.
+// Columns are taken several at once. O(cells * log by), the memory of the result and of some lines per thread.
 
 #include "segment/raster/square_dilation.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <limits>
@@ -15,21 +16,22 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t lines_at_once = 64;
+constexpr std::size_t rows_at_once = 64;
+constexpr std::size_t lanes = 16;  // lines side by side, of which the same is computed at once
 
-// Of each cell the best one within `by` in a line of cells `stride` apart, in place. `line` is room for it.
-template <class Value, class Better>
-void best_along(Value* first, std::size_t count, std::size_t stride, std::size_t by, Value worst, const Better& better,
-                std::vector<Value>& line) {
-    line.assign(count + by, worst);
-    for (std::size_t i = 0; i < count; ++i) line[i + by] = first[i * stride];
+template <class Value>
+using Lanes = std::array<Value, lanes>;
+
+// Of each place the best one within `by` of it in a line of `count`, for lines that are given side by side. `line`
+// holds `by` places that are `worst`, and after them those of the line; the result begins at its first place.
+template <class Place, class Better>
+void best_along(std::vector<Place>& line, std::size_t by, const Better& better) {
     const std::size_t width = 2 * by + 1;
     for (std::size_t done = 1; done < width;) {
         const std::size_t on = std::min(done, width - done);
-        for (std::size_t i = 0; i + on < line.size(); ++i) line[i] = better(line[i], line[i + on]);
+        for (std::size_t i = 0; i + on < line.size(); ++i) better(line[i], line[i + on]);
         done += on;
     }
-    for (std::size_t i = 0; i < count; ++i) first[i * stride] = line[i];
 }
 
 template <class Value, class Better>
@@ -37,16 +39,33 @@ std::vector<Value> best_in_square(std::vector<Value> cells, std::size_t columns,
                                   Value worst, const Better& better) {
     assert(cells.size() == columns * rows);
     if (by == 0) return cells;
-    const auto along = [&](std::size_t lines, std::size_t count, std::size_t beside, std::size_t stride) {
-        parallel_ranges(0, lines, lines_at_once, [&](std::size_t first, std::size_t end) {
-            std::vector<Value> line;
-            for (std::size_t i = first; i < end; ++i) {
-                best_along(&cells[i * beside], count, stride, by, worst, better, line);
-            }
+    parallel_ranges(0, rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+        std::vector<Value> line;
+        for (std::size_t row = first; row < end; ++row) {
+            Value* own = &cells[row * columns];
+            if (std::all_of(own, own + columns, [worst](Value value) { return value == worst; })) continue;
+            line.assign(by, worst);
+            line.insert(line.end(), own, own + columns);
+            best_along(line, by, [&](Value& to, Value other) { to = better(to, other); });
+            std::copy_n(line.begin(), columns, own);
+        }
+    });
+    parallel_for(0, (columns + lanes - 1) / lanes, [&](std::size_t group) {
+        const std::size_t first = group * lanes;
+        const std::size_t count = std::min(lanes, columns - first);
+        Lanes<Value> none;
+        none.fill(worst);
+        std::vector<Lanes<Value>> line(by + rows, none);
+        for (std::size_t row = 0; row < rows; ++row) {
+            std::copy_n(&cells[row * columns + first], count, line[by + row].begin());
+        }
+        best_along(line, by, [&](Lanes<Value>& to, const Lanes<Value>& other) {
+            for (std::size_t k = 0; k < lanes; ++k) to[k] = better(to[k], other[k]);
         });
-    };
-    along(rows, columns, columns, 1);
-    along(columns, rows, 1, columns);
+        for (std::size_t row = 0; row < rows; ++row) {
+            std::copy_n(line[row].begin(), count, &cells[row * columns + first]);
+        }
+    });
     return cells;
 }
 

@@ -19,6 +19,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -96,17 +97,22 @@ struct FinishingMasks {
 };
 
 // The cells at which the tool touches the region, by how steep the CL surface is there.
-FinishingMasks masks_of(const HeightField& cl, const FinishingRegion& region, double radius, double min_slope) {
+FinishingMasks masks_of(const HeightField& cl, const FinishingRegion& region, const FieldTiles* tiles, double radius,
+                        double min_slope) {
     FinishingMasks masks;
     masks.flat.assign(cl.height.size(), 0);
     masks.steep.assign(cl.height.size(), 0);
+    const auto mark = [&](std::size_t column, std::size_t row) {
+        if (!touches(cl, region, radius, column, row)) return;
+        const SideSlopes slopes(cl, column, row);
+        const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > min_slope;
+        CellMask& mask = is_steep ? masks.steep : masks.flat;
+        mask[row * cl.columns + column] = 1;
+    };
     parallel_for(0, cl.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < cl.columns; ++column) {
-            if (!touches(cl, region, radius, column, row)) continue;
-            const SideSlopes slopes(cl, column, row);
-            const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > min_slope;
-            CellMask& mask = is_steep ? masks.steep : masks.flat;
-            mask[row * cl.columns + column] = 1;
+        const std::vector<CellSpan> whole{{0, cl.columns}};
+        for (const CellSpan& span : tiles != nullptr ? tiles->spans(row) : whole) {
+            for (std::size_t column = span.first; column < span.end; ++column) mark(column, row);
         }
     });
     return masks;
@@ -125,8 +131,8 @@ WaterlineFloor foot_of_walls(const HeightField& cl, const FinishingRegion& floor
     return foot;
 }
 
-// The cells that are at most so far from one of the mask, measured along the CL surface from cell to cell: sweeps in
-// both orders, until one changes nothing.
+// The cells that are at most so far from one of the mask, measured along the CL surface from cell to cell. A cell that
+// has come nearer is asked for its neighbours until none comes nearer (R. Bellman, "On a routing problem", 1958).
 class SurfaceGrowth {
  public:
     SurfaceGrowth(const CellMask& mask, const HeightField& cl, double by)
@@ -134,9 +140,13 @@ class SurfaceGrowth {
         for (std::size_t i = 0; i < mask.size(); ++i) {
             if (mask[i] != 0) distance_[i] = 0;
         }
-        for (bool goes_on = true; goes_on;) {
-            const bool has_changed = sweep(true);
-            goes_on = sweep(false) || has_changed;
+        for (std::size_t i = 0; i < mask.size(); ++i) {
+            if (mask[i] != 0) spread(i);
+        }
+        while (!nearer_.empty()) {
+            const std::size_t cell = nearer_.front();
+            nearer_.pop_front();
+            spread(cell);
         }
     }
     CellMask mask() const {
@@ -146,31 +156,25 @@ class SurfaceGrowth {
     }
 
  private:
-    bool sweep(bool is_forward) {
-        bool has_changed = false;
-        for (std::size_t k = 0; k < distance_.size(); ++k) {
-            const std::size_t i = is_forward ? k : distance_.size() - 1 - k;
-            if (distance_[i] == 0) continue;
-            const std::size_t column = i % cl_.columns;
-            float least = distance_[i];
-            if (column > 0) least = std::min(least, from(i, i - 1));
-            if (column + 1 < cl_.columns) least = std::min(least, from(i, i + 1));
-            if (i >= cl_.columns) least = std::min(least, from(i, i - cl_.columns));
-            if (i + cl_.columns < distance_.size()) least = std::min(least, from(i, i + cl_.columns));
-            if (least >= distance_[i] || least > by_) continue;
-            distance_[i] = least;
-            has_changed = true;
-        }
-        return has_changed;
+    void spread(std::size_t cell) {
+        const std::size_t column = cell % cl_.columns;
+        if (column > 0) go(cell, cell - 1);
+        if (column + 1 < cl_.columns) go(cell, cell + 1);
+        if (cell >= cl_.columns) go(cell, cell - cl_.columns);
+        if (cell + cl_.columns < distance_.size()) go(cell, cell + cl_.columns);
     }
-    float from(std::size_t to, std::size_t cell) const {
-        if (!(distance_[cell] < by_)) return std::numeric_limits<float>::infinity();
-        return distance_[cell] + std::hypot(static_cast<float>(cl_.cell), cl_.height[to] - cl_.height[cell]);
+    void go(std::size_t cell, std::size_t to) {
+        if (distance_[to] <= distance_[cell]) return;
+        const float far = distance_[cell] + std::hypot(static_cast<float>(cl_.cell), cl_.height[to] - cl_.height[cell]);
+        if (far >= distance_[to] || far > by_) return;
+        distance_[to] = far;
+        nearer_.push_back(to);
     }
 
     const HeightField& cl_;
     float by_;
     std::vector<float> distance_;
+    std::deque<std::size_t> nearer_;  // cells whose neighbours are still to be asked
 };
 
 // Cells that hang together, and how far apart their heights are.
@@ -226,6 +230,11 @@ double finishing_stepover(const CuttingTool& tool, const FinishingOptions& optio
     return chord_for_scallop(0.5 * tool.diameter, options.scallop);
 }
 
+double finishing_margin(const CuttingTool& tool, const FinishingOptions& options, double cell) {
+    // From the surface to the tip that touches it, twice to what passes go beyond it, and the slopes there.
+    return 0.5 * tool.diameter + 2 * finishing_stepover(tool, options) + 3 * cell;
+}
+
 std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context) {
     const double stepover = finishing_stepover(tool, options);
@@ -237,7 +246,7 @@ std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& too
     };
     report(0);
     const double min_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
-    FinishingMasks masks = masks_of(cl, region, radius, min_slope);
+    FinishingMasks masks = masks_of(cl, region, options.tiles, radius, min_slope);
     report(1);
     SteepRegions(cl, masks).give_low_ones_to_flat(0.5 * stepover);
     const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / cl.cell));

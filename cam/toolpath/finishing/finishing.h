@@ -32,10 +32,16 @@ struct FinishingOptions {
     // The tool over the target, as the CL surface was made with it: levels then go along vertical edges where these
     // are, and not a cell beside them. Nothing: it is not known.
     const ToolDilation* tool = nullptr;
+    // The tiles in which the CL surface is known: at least those within finishing_margin() of the region and the floor.
+    // Nothing: all.
+    const FieldTiles* tiles = nullptr;
 };
 
 // The largest distance between neighbouring passes. Throws InputError (use) as finishing_passes does.
 double finishing_stepover(const CuttingTool& tool, const FinishingOptions& options);
+
+// How far beside a region and the floor passes depend on the CL surface. Throws as finishing_stepover.
+double finishing_margin(const CuttingTool& tool, const FinishingOptions& options, double cell);
 
 // `cl` is the CL surface of the tool, raised where holder and spindle ask for it; `region` says which of the surface
 // is to be finished; passes go half a step beyond it. First the levels from above, then the rows. Throws InputError

@@ -86,29 +86,47 @@ void RestMaterial::for_each_point(std::size_t triangle, const Visit& visit) cons
     }
 }
 
+template <class Visit>
+void RestMaterial::for_each_left(const HeightField& frame, double near, double worth, const Visit& visit) const {
+    const std::uint8_t min_before = worth > 0 ? class_of(worth, near) : 0;
+    parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t) {
+            const Vec3 normal = normalized(rotate(frame.piece_in_field, area_vector(*mesh_, t)));
+            if (!(normal.z > lowest_facing)) continue;
+            for_each_point(t, [&](std::size_t index, Vec3 p) {
+                if (left_[index] > min_before) visit(index, apply(frame.piece_in_field, p), normal);
+            });
+        }
+    });
+}
+
+FieldTiles RestMaterial::places(const HeightField& frame, double near, double worth) const {
+    FieldTiles tiles(frame.columns, frame.rows);
+    for_each_left(frame, near, worth, [&](std::size_t, Vec3 at, Vec3) {
+        const auto cell = frame.cell_under(at.x, at.y);
+        if (cell) tiles.add(*cell);
+    });
+    return tiles;
+}
+
+double RestMaterial::examined(double near) {
+    return std::ldexp(near, max_twice - 1);
+}
+
 FinishingRegion RestMaterial::take(const HeightField& remaining, double near, double overlap, double worth,
                                    bool is_whole) {
     assert(near > 0 && overlap >= 0);
     FinishingRegion region(remaining.height.size(), not_finished);
     ++takes_;
-    const std::uint8_t min_before = worth > 0 ? class_of(worth, near) : 0;
-    parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
-        for (std::size_t t = first; t < end; ++t) {
-            const Vec3 normal = normalized(rotate(remaining.piece_in_field, area_vector(*mesh_, t)));
-            if (!(normal.z > lowest_facing)) continue;
-            const std::uint8_t worst = is_whole ? 0 : normal.z > overhanging ? max_twice : worst_under_edges;
-            for_each_point(t, [&](std::size_t index, Vec3 p) {
-                if (left_[index] <= min_before && (left_[index] == 0 || worth > 0)) return;
-                const Vec3 at = apply(remaining.piece_in_field, p);
-                const std::uint8_t k = foam_class(remaining, at, normal, near);
-                if (k >= left_[index] || k > worst) return;
-                before_[index] = left_[index];
-                left_[index] = k;
-                taken_by_[index] = static_cast<std::uint16_t>(takes_);
-                const auto cell = remaining.cell_under(at.x, at.y);
-                if (cell) lower_shared(region[*cell], static_cast<float>(at.z));
-            });
-        }
+    for_each_left(remaining, near, worth, [&](std::size_t index, Vec3 at, Vec3 normal) {
+        const std::uint8_t worst = is_whole ? 0 : normal.z > overhanging ? max_twice : worst_under_edges;
+        const std::uint8_t k = foam_class(remaining, at, normal, near);
+        if (k >= left_[index] || k > worst) return;
+        before_[index] = left_[index];
+        left_[index] = k;
+        taken_by_[index] = static_cast<std::uint16_t>(takes_);
+        const auto cell = remaining.cell_under(at.x, at.y);
+        if (cell) lower_shared(region[*cell], static_cast<float>(at.z));
     });
     const double beside = std::max(overlap, spacing_);
     return erode_by_square(region, remaining.columns, remaining.rows,

@@ -13,6 +13,7 @@
 
 #include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/field_tiles.h"
 #include "segment/raster/height_field.h"
 
 namespace qchopper {
@@ -28,6 +29,13 @@ class RestMaterial {
     // are at most `spacing` apart on a triangle. The mesh must outlive it. Preconditions: the mesh is consistent,
     // spacing > 0.
     RestMaterial(const TriangleMesh& mesh, const Setup& setup, double spacing = 1);
+
+    // The tiles of a map of a direction that hold points at which take() of that map looks. The result does not depend
+    // on the number of threads. O(points).
+    FieldTiles places(const HeightField& frame, double near, double worth = 0) const;
+
+    // How far from its point take() examines foam.
+    static double examined(double near);
 
     // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
     // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
@@ -54,6 +62,9 @@ class RestMaterial {
     double share_within(std::size_t k) const;
 
  private:
+    // Calls visit(index, point, normal in the map) for each point that take() looks at, on several threads.
+    template <class Visit>
+    void for_each_left(const HeightField& frame, double near, double worth, const Visit& visit) const;
     template <class Visit>
     void for_each_point(std::size_t triangle, const Visit& visit) const;
 

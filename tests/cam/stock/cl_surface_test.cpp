@@ -275,6 +275,67 @@ TEST(ClSurface, EqualsTheDefinition) {
     }
 }
 
+FieldTiles some_tiles(const HeightField& map, unsigned seed) {
+    FieldTiles tiles(map.columns, map.rows);
+    std::mt19937 random(seed);
+    for (int k = 0; k < 12; ++k) tiles.add(random() % map.height.size());
+    return tiles;
+}
+
+TEST(ClSurface, InTilesIsThatOfTheWholeMapAndElsewhereNotBelowIt) {
+    const HeightField map = spiky_map(163, 121, 0.5, 7);
+    for (const CuttingTool& tool : {ball_tool(12), flat_tool(6), ball_tool(0.4)}) {
+        const DilationOptions options{0.7, 0.1};
+        const HeightField whole = cl_surface(map, tool, options);
+        const FieldTiles tiles = some_tiles(map, 3);
+        const HeightField tip = cl_surface(ToolDilation(map, tool, options), tiles);
+        std::size_t held = 0;
+        for (std::size_t i = 0; i < map.height.size(); ++i) {
+            if (tiles.holds(i)) {
+                ++held;
+                ASSERT_EQ(tip.height[i], whole.height[i]) << i;
+            } else {
+                ASSERT_GE(tip.height[i], whole.height[i]) << i;
+            }
+        }
+        EXPECT_GT(held, 1000U);
+        EXPECT_LT(held, map.height.size() / 2);
+    }
+}
+
+TEST(ClSurface, WhatRemainsInTilesIsThatOfTheWholeMap) {
+    const HeightField map = spiky_map(163, 121, 0.5, 7);
+    const CuttingTool tool = ball_tool(12);
+    const FieldTiles tiles = some_tiles(map, 4);
+    const HeightField whole = remaining_surface(cl_surface(map, tool), tool);
+    // Tips within the radius of a tile, and no others, are needed for it.
+    const HeightField tip = cl_surface(ToolDilation(map, tool), tiles.grown(13));
+    const HeightField remaining = remaining_surface(tip, tool, tiles);
+    for (std::size_t i = 0; i < map.height.size(); ++i) {
+        ASSERT_EQ(remaining.height[i], tiles.holds(i) ? whole.height[i] : std::numeric_limits<float>::infinity()) << i;
+    }
+}
+
+TEST(ClSurface, HeightsAlongPlacesAreTheGreatestSoFar) {
+    const HeightField map = spiky_map(163, 121, 0.5, 9);
+    const ToolDilation tool(map, ball_tool(12), {0.3, 0.05});
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int k = 0; k < 200; ++k) {
+        const Point2 first{80 * unit(random), 60 * unit(random)};
+        std::vector<Point2> places;
+        for (int i = 0; i < 7; ++i) places.push_back({first.x + 0.07 * i, first.y - 0.03 * i});
+        const double low = tool.height(first.x, first.y) - 4 * unit(random);
+        std::vector<float> heights(places.size());
+        tool.heights_along(places, {low, std::numeric_limits<double>::infinity()}, heights);
+        auto highest = static_cast<float>(low);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            highest = std::max(highest, static_cast<float>(tool.height(places[i].x, places[i].y)));
+            ASSERT_EQ(heights[i], highest);
+        }
+    }
+}
+
 TEST(ClSurface, ABorderOfCellsCutsIntoAPeakByItsDiagonalAtMost) {
     HeightField map = spiky_map(81, 81, 0.25, 7);
     std::fill(map.height.begin(), map.height.end(), -100.0F);

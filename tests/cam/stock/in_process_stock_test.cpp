@@ -126,7 +126,7 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
     for (unsigned seed = 1; seed <= 3; ++seed) {
-        const StockOfRandomWays milled(setup, mesh, seed);
+        StockOfRandomWays milled(setup, mesh, seed);
         std::vector<HeightField> highest;
         std::vector<HeightField> lowest;
         for (std::size_t d = 0; d < 2; ++d) highest.push_back(milled.stock.highest(d, milled.frames[d]));
@@ -243,6 +243,36 @@ TEST(InProcessStock, AlongRaysIsThatOfAPlainLoop) {
         }
     }
     EXPECT_GT(between, 1000U);
+}
+
+// The stock that is asked after every removal, and one that is asked once.
+TEST(InProcessStock, RaysGoOnWhereTheyMetFoam) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
+    const auto setup = setup_of(mesh, 8, 50);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (const StockCells kind : {StockCells::whole, StockCells::centres}) {
+        InProcessStock asked(setup, kind);
+        InProcessStock plain(setup, kind);
+        for (std::size_t k = 0; k < 12; ++k) {
+            const std::size_t d = k % 3 == 2 ? 0 : k % 2;
+            HeightField removed = piece_height_field(setup, mesh, d, {1.3, 0, 15});
+            const double low = 40 * unit(random);
+            const std::size_t first = static_cast<std::size_t>(unit(random) * static_cast<double>(removed.rows));
+            for (std::size_t i = 0; i < removed.height.size(); ++i) {
+                const bool is_in = i / removed.columns >= first && i / removed.columns < first + 12;
+                removed.height[i] = is_in ? static_cast<float>(low - 20) : std::numeric_limits<float>::infinity();
+            }
+            asked.remove_above(d, removed);
+            plain.remove_above(d, removed);
+            for (std::size_t other = 0; other < 2; ++other) {
+                const HeightField frame = piece_height_field(setup, mesh, other, {1.3, 0, 15});
+                InProcessStock fresh = plain;
+                ASSERT_EQ(asked.highest(other, frame).height, fresh.highest(other, frame).height) << k;
+                ASSERT_EQ(asked.highest(other, frame).height, fresh.highest(other, frame).height) << k;
+            }
+        }
+    }
 }
 
 TEST(InProcessStock, OfAWholeBlockIsItsTop) {

@@ -72,6 +72,42 @@ struct Finished {
     }
 };
 
+// Passes over tiles near to what is to be finished are those over the whole map.
+TEST(FinishingPasses, OverTilesAreThoseOverTheWholeMap) {
+    const TriangleMesh mesh = bumpy(60, 12, 60, 3);
+    const auto setup = setup_of(mesh, 14, 35);
+    const CuttingTool tool = ball_tool(6);
+    const HeightField target = piece_height_field(setup, mesh, 1, {cell, -6, 0});
+    const ToolDilation over_target(target, tool);
+    FinishingOptions options;
+    options.tool = &over_target;
+    const HeightField whole = cl_surface(target, tool);
+    // A small part of the surface.
+    FinishingRegion region(target.height.size(), not_finished);
+    FieldTiles tiles(target.columns, target.rows);
+    for (std::size_t row = target.rows / 2; row < target.rows / 2 + 40; ++row) {
+        for (std::size_t column = target.columns / 2; column < target.columns / 2 + 60; ++column) {
+            const std::size_t i = row * target.columns + column;
+            region[i] = target.height[i];
+            tiles.add(i);
+        }
+    }
+    const std::vector<Pass> expected = finishing_passes(whole, tool, region, options);
+    tiles = tiles.grown(static_cast<std::size_t>(finishing_margin(tool, options, cell) / cell) + 1);
+    options.tiles = &tiles;
+    const HeightField tip = cl_surface(over_target, tiles);
+    EXPECT_NE(tip.height, whole.height);
+    const std::vector<Pass> found = finishing_passes(tip, tool, region, options);
+    ASSERT_GT(expected.size(), 5U);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        ASSERT_EQ(found[k].points.size(), expected[k].points.size());
+        for (std::size_t i = 0; i < found[k].points.size(); ++i) {
+            ASSERT_EQ(found[k].points[i].tip, expected[k].points[i].tip);
+        }
+    }
+}
+
 // Over the points for which a condition holds.
 struct Leftover {
     double most = 0;

@@ -345,7 +345,9 @@ TEST(RaiseToLimit, NoLineBetweenNeighboursIsBelowTheLimit) {
     tip.columns = 30;
     tip.rows = 22;
     tip.height.assign(tip.columns * tip.rows, 20);
-    raise_to_limit(tip, limit);
+    FieldTiles all(tip.columns, tip.rows);
+    for (std::size_t i = 0; i < tip.height.size(); ++i) all.add(i);
+    raise_to_limit(tip, limit, all);
     const auto at = [&](std::size_t c, std::size_t r) {
         return Vec3{0.2 * (static_cast<double>(c) + 0.5), 0.2 * (static_cast<double>(r) + 0.5), tip.at(c, r)};
     };
