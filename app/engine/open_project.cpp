@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_program.h"
 #include "app/jobs/project_sheets.h"
 #include "app/jobs/unreachable_of.h"
@@ -106,6 +107,7 @@ Setups* OpenProject::setups() {
     setups_->set_orders(committed_setup_orders(project_.history));
     setups_->set_tools(project_.tools);
     setups_->set_count_narrow(project_.settings.stop.count_narrow);
+    setups_->set_places(recorded_places(project_));
     return &*setups_;
 }
 

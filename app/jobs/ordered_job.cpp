@@ -43,6 +43,14 @@ WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& 
     return {piece, sha256(file), to_hex(project_id), part};
 }
 
+std::map<std::string, BlockPlacement> recorded_places(const Project& project) {
+    std::map<std::string, BlockPlacement> places;
+    for (const WrittenJob& job : project.jobs) {
+        if (job.place) places[job.piece] = *job.place;
+    }
+    return places;
+}
+
 std::vector<WrittenJob> written_jobs_of(const Project& project, const std::string& piece) {
     std::vector<WrittenJob> jobs;
     std::copy_if(project.jobs.begin(), project.jobs.end(), std::back_inserter(jobs),

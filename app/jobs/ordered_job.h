@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& 
 
 // The jobs that the project has on record for a piece, in the order of its parts.
 std::vector<WrittenJob> written_jobs_of(const Project& project, const std::string& piece);
+
+// WrittenJob::place by piece, of those that have one.
+std::map<std::string, BlockPlacement> recorded_places(const Project& project);
 
 // The references must outlive the order.
 struct JobOrder {

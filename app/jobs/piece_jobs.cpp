@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <optional>
 
@@ -156,6 +157,16 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
     return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, fine);
 }
 
+// Of WrittenJob: the programs', or that of an earlier run which the setup has.
+std::optional<BlockPlacement> place_of(const Project& project, const Piece& piece, const PiecePrograms& programs,
+                                       const PlacedSetup& piece_setup) {
+    if (programs.place) return programs.place;
+    const std::map<std::string, BlockPlacement> recorded = recorded_places(project);
+    const auto found = recorded.find(piece.name);
+    if (found == recorded.end() || found->second != piece_setup.setup().placement) return std::nullopt;
+    return found->second;
+}
+
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
 MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
@@ -170,6 +181,13 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
     }
     JobInput input = job_input(orders, index, piece_setup);
     const PiecePrograms programs = programs_of(orders, input, piece_setup, context);
+    if (programs.place) {
+        const Cell planned = with_tools(orders.cell, piece_setup.setup().tools);
+        PlacedSetup placed = placed_at(piece_setup, piece, planned, *programs.place).value();
+        input = job_input(orders, index, placed);
+        placed.choice.states.clear();
+        made.report.piece_setup = std::move(placed);
+    }
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
     input.caps = programs.caps;
@@ -182,6 +200,8 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
         if (!made.written.empty()) input.program->program.part.before = made.written.back().sha256;
         write_one(input, &part.proof, orders, made);
     }
+    const std::optional<BlockPlacement> place = place_of(orders.project, piece, programs, piece_setup);
+    for (WrittenJob& job : made.written) job.place = place;
     return made;
 }
 
@@ -240,6 +260,7 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
     MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), joints, program_version), index,
                             setups.placed(piece), context);
     record_jobs(project, segmentation, index, made.written);
+    setups.set_places(recorded_places(project));
     return std::move(made.report);
 }
 
@@ -276,6 +297,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         reports.push_back(std::move(job.report));
     }
     project.jobs = std::move(all);  // no other job stays recorded
+    setups.set_places(recorded_places(project));
     return reports;
 }
 

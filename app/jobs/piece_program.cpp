@@ -1,9 +1,12 @@
-// One step after the other; the replay takes most of the time.
+// One step after the other; toolpath and replay take most of the time. A setup is placed by poses that are known before
+// there is a toolpath (milling_poses.h); where the arm cannot follow it, its block is placed once more, by these poses
+// and by those of every run of the toolpath (sampled_path.h); the toolpath stays.
 
 #include "app/jobs/piece_program.h"
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "app/pictures/deviation_picture.h"
@@ -15,8 +18,10 @@
 #include "cam/post/krl.h"
 #include "cam/program/make_program.h"
 #include "cam/program/reachable_holes.h"
+#include "cam/program/sampled_path.h"
 #include "cam/setup/block_placement.h"
 #include "cam/setup/drill_orientation.h"
+#include "cam/setup/placement/place_block.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/io/write_mesh.h"
 #include "segment/mesh/transform.h"
@@ -25,6 +30,7 @@ namespace qchopper {
 namespace {
 
 constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
+constexpr double pose_distance = 20;   // mm, of those of a toolpath by which its block is placed
 
 std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     std::vector<Pose> frames;
@@ -33,9 +39,10 @@ std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     return frames;
 }
 
-// A toolpath and the drilling that follows it.
+// A toolpath, the foam that it leaves, and the drilling that follows it.
 struct MadePath {
     Toolpath toolpath;
+    InProcessStock left;
     Drilling drilling;
 };
 
@@ -48,11 +55,17 @@ double wall_of(const JobHole& hole, const Cell& cell) {
     return wall;
 }
 
-MadePath make_path(const Piece& piece, const PlacedSetup& piece_setup, const Cell& cell,
-                   const std::vector<DrawnCap>& caps, const ToolpathSettings& settings, const Context& context) {
-    const Setup& setup = piece_setup.setup();
+MadePath make_path(const Piece& piece, const Setup& setup, const Cell& cell, const ToolpathSettings& settings,
+                   const Context& context) {
     InProcessStock left(setup);
-    MadePath made{make_toolpath(setup, *piece.mesh, cell, settings, context, &left), {}};
+    Toolpath toolpath = make_toolpath(setup, *piece.mesh, cell, settings, context, &left);
+    return {std::move(toolpath), std::move(left), {}};
+}
+
+// The holes that the robot reaches where the block stands.
+Drilling drilling_of(const MadePath& made, const Piece& piece, const PlacedSetup& piece_setup, const Cell& cell,
+                     const std::vector<DrawnCap>& caps, const Context& context) {
+    const Setup& setup = piece_setup.setup();
     std::vector<DrillHole> holes;
     for (const DrawnCap& drawn : caps) {
         for (const JobHole& hole : holes_of({drawn.cap})) {
@@ -60,10 +73,26 @@ MadePath make_path(const Piece& piece, const PlacedSetup& piece_setup, const Cel
                 {hole.number, hole.point, -hole.axis, hole.diameter, hole.depth, wall_of(hole, cell), hole.by_hand});
         }
     }
-    if (holes.empty()) return made;
-    made.drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, left);
-    keep_reachable_holes(made.drilling, setup, piece_setup.machine_reachability, cell, context);
-    return made;
+    if (holes.empty()) return {};
+    Drilling drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, made.left);
+    keep_reachable_holes(drilling, setup, piece_setup.machine_reachability, cell, context);
+    return drilling;
+}
+
+// Where the machine holds the runs of a toolpath as well as the poses of its setup; nothing if there is no such place,
+// or if it is where the block stands already.
+std::optional<PlacedSetup> placed_for(const Toolpath& path, const PlacedSetup& known, const Piece& piece,
+                                      const Cell& cell, const Context& context) {
+    const Setup& setup = known.setup();
+    std::vector<OrientationPoses> poses = milling_poses(setup, *piece.mesh, cell);
+    for (const Operation& operation : path.operations) {
+        for (const PathRun& run : operation.runs) {
+            poses[operation.orientation].regions.push_back(sparse_poses(sampled_path({&run, 1}), pose_distance));
+        }
+    }
+    const MachineReachability found = place_block(setup, poses, cell, {}, context);
+    if (found.placement == setup.placement) return std::nullopt;
+    return placed_at(known, piece, cell, found.placement);
 }
 
 struct PostedProgram {
@@ -171,6 +200,34 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
     return input;
 }
 
+// A program, and the setup where its block stands.
+struct MadeProgram {
+    MadePath made;
+    PostedProgram posted;
+    PlacedSetup piece_setup;
+};
+
+// Where the machine cannot follow the toolpath from where the block stands, from another place.
+MadeProgram made_program(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+                         const std::vector<DrawnCap>& caps, const ToolpathSettings& settings, const Context& context) {
+    StageTimer stage(context, "toolpaths made");
+    MadeProgram program{make_path(piece, known.setup(), cell, settings, context), {}, known};
+    stage.next("programs made");
+    const auto post_at = [&](const PlacedSetup& place) {
+        program.made.drilling = drilling_of(program.made, piece, place, cell, caps, context);
+        program.posted = make_parts(program.made, place, piece_no, cell, context);
+    };
+    try {
+        post_at(known);
+    } catch (const ProgramRefused&) {
+        std::optional<PlacedSetup> other = placed_for(program.made.toolpath, known, piece, cell, context);
+        if (!other) throw;
+        program.piece_setup = std::move(*other);
+        post_at(program.piece_setup);
+    }
+    return program;
+}
+
 void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& mesh) {
     if (proof.chunks.size() == input.program.chunks.size()) input.program.chunks = proof.chunks;
     input.program.time_s = proof.time_s;
@@ -192,36 +249,31 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
     return caps;
 }
 
-PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
-                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
-    const Setup& setup = piece_setup.setup();
-    const Cell planned = with_tools(cell, setup.tools);
-    PostedProgram posted;
-    MadePath made;
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+                            std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
+    const Cell planned = with_tools(cell, known.setup().tools);
     ToolpathSettings settings;
     settings.scallop = cell.machine->program.scallop;
     settings.fine = fine;
-    const auto make = [&](const ToolpathSettings& asked) {
-        StageTimer stage(context, "toolpaths made");
-        made = make_path(piece, piece_setup, planned, caps, asked, context);
-        stage.next("programs made");
-        posted = make_parts(made, piece_setup, piece_no, planned, context);
-    };
+    std::optional<MadeProgram> program;
     try {
         try {
-            make(settings);
+            program = made_program(piece, known, piece_no, planned, caps, settings, context);
         } catch (const ProgramRefused&) {
-            // The work envelope was asked for tips on the block, not for all that roughing takes beside it.
+            // Poses are known of tips on the block, not of all that roughing takes beside it.
             ToolpathSettings narrow = settings;
             narrow.beside_block = narrowly_beside;
-            make(narrow);
+            program = made_program(piece, known, piece_no, planned, caps, narrow, context);
         }
     } catch (const InputError& error) {
-        return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
+        return {{}, error.what(), caps_by_hand(std::move(caps), error.what()), {}};
     }
+    const auto& [made, posted, piece_setup] = *program;
+    const Setup& setup = piece_setup.setup();
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
+    if (setup.placement != known.setup().placement) programs.place = setup.placement;
     programs.caps = decided(std::move(caps), made.drilling);
     std::vector<JobCap> job_caps;
     for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);

@@ -27,6 +27,8 @@ struct PiecePrograms {
     std::vector<ProvenProgram> parts;  // in their order; empty: no program
     std::string none_because;          // for people, without a full stop
     std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
+    // Where the block has to stand for them, if that is not where the setup has it.
+    std::optional<BlockPlacement> place = {};
 };
 
 // Empty for a cell for whose jobs programs can be made, else why not: no machine, or a dialect that cannot be written.
@@ -34,12 +36,12 @@ std::string no_programs_for(const Cell& cell);
 
 // The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after
 // finishing. Where a program cannot be made with a hole, this hole is left to the hand. Preconditions: the
-// piece_setup is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
-// no_programs_for(cell) is empty. Where the machine cannot follow the toolpath there is no program, and none_because
-// says why. Throws Cancelled.
-PiecePrograms make_programs(const Piece& piece, const PlacedSetup& piece_setup, std::uint16_t piece_no,
-                            const Cell& cell, std::vector<DrawnCap> caps, const Context& context,
-                            FineTools fine = FineTools::worthwhile);
+// known setup is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
+// no_programs_for(cell) is empty. Where the machine cannot follow the toolpath the block is placed again, so that it
+// holds the poses of the toolpath too; where that does not help there is no program, and none_because says why. Throws
+// Cancelled.
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+                            std::vector<DrawnCap> caps, const Context& context, FineTools fine = FineTools::worthwhile);
 
 // Caps of a piece that gets no program.
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);

@@ -28,6 +28,7 @@
 #include "cam/cell/job_tools.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/limiting_tools.h"
+#include "cam/setup/placement/place_block.h"
 #include "cam/setup/reachable_setup.h"
 #include "segment/access/piece_access.h"
 #include "segment/mesh/oriented_box.h"
@@ -64,6 +65,20 @@ std::vector<ToolNumbers> sets_of(const Cell& planned, const ToolNumbers& ordered
 
 }  // namespace
 
+std::optional<PlacedSetup> placed_at(const PlacedSetup& known, const Piece& piece, const Cell& cell,
+                                     const BlockPlacement& place) {
+    const std::size_t angles = place.table_angles.size();
+    if (angles != 0 && angles != known.setup().access.orientations.size()) return std::nullopt;
+    PlacedSetup other = known;
+    other.choice.setups.front().placement = place;
+    PlacementOptions options;
+    options.is_searched = false;
+    other.machine_reachability = place_block(other.setup(), *piece.mesh, cell, options);
+    other.machine_reachability.remedy = known.machine_reachability.remedy;
+    if (!other.fits()) return std::nullopt;
+    return other;
+}
+
 Setups::Setups(Cell cell) : cell_(std::move(cell)), planned_(cell_), tool_sets_(sets_of(planned_, tools_)) {}
 
 Cell Setups::with_shortest_tools() const {
@@ -74,6 +89,17 @@ void Setups::set_orders(std::vector<SetupOrder> orders) {
     if (orders == orders_) return;
     orders_ = std::move(orders);
     stages_.clear();
+}
+
+void Setups::set_places(std::map<std::string, BlockPlacement> places) {
+    const auto of = [](const std::map<std::string, BlockPlacement>& all, const std::string& name) {
+        const auto found = all.find(name);
+        return found == all.end() ? std::nullopt : std::optional(found->second);
+    };
+    for (auto& [mesh, stages] : stages_) {
+        if (of(places, stages.name) != of(places_, stages.name)) stages.placed.reset();
+    }
+    places_ = std::move(places);
 }
 
 void Setups::set_tools(ToolNumbers tools) {
@@ -95,7 +121,9 @@ Setups::Stages& Setups::stages_of(const Piece& piece) {
     const auto known = stages_.find(piece.mesh);
     if (known != stages_.end()) return known->second;
     std::erase_if(stages_, [](const auto& entry) { return entry.first.expired(); });
-    return stages_[piece.mesh];
+    Stages& stages = stages_[piece.mesh];
+    stages.name = piece.name;
+    return stages;
 }
 
 template <class Stage, class Make>
@@ -271,7 +299,10 @@ PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, con
         PlacedSetup other = placed_with(mapped_with(tools, piece), piece, context);
         if (key(other) < key(best)) best = std::move(other);
     }
-    return best;
+    const auto place = places_.find(piece.name);
+    if (place == places_.end() || !best.fits()) return best;
+    const Cell planned = with_tools(cell_, best.setup().tools);
+    return placed_at(best, piece, planned, place->second).value_or(std::move(best));
 }
 
 }  // namespace qchopper

@@ -37,6 +37,11 @@ struct PlacedSetup : MappedSetup {
     bool fits() const { return stock_fit.fits() && machine_reachability.holds(); }
 };
 
+// The same where the block stands elsewhere: nothing if the machine does not hold every pose of the setup there. The
+// cell has the tools of the setup. Precondition: the cell has a machine.
+std::optional<PlacedSetup> placed_at(const PlacedSetup& known, const Piece& piece, const Cell& cell,
+                                     const BlockPlacement& place);
+
 using ToolNumbers = std::vector<std::uint16_t>;  // empty: all of the cell
 
 class Setups {
@@ -51,6 +56,9 @@ class Setups {
 
     // What the operator decided, in place of what was decided before. A change forgets all that is known of pieces.
     void set_orders(std::vector<SetupOrder> orders);
+    // Where the blocks of pieces, by their names, stand for their programs; as far as that holds their setups. A change
+    // forgets what is known of these pieces.
+    void set_places(std::map<std::string, BlockPlacement> places);
     // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools()
     // (cam/cell/job_tools.h) throws.
     void set_tools(ToolNumbers tools);
@@ -93,6 +101,7 @@ class Setups {
         std::optional<UnreachableSurface> without_holder;
         std::optional<MappedSetup> mapped;
         std::optional<PlacedSetup> placed;
+        std::string name;  // of the piece
         std::optional<bool> is_machinable;
     };
     Stages& stages_of(const Piece& piece);
@@ -116,6 +125,7 @@ class Setups {
     Cell planned_;
     std::vector<ToolNumbers> tool_sets_;  // of planned_
     std::vector<SetupOrder> orders_;
+    std::map<std::string, BlockPlacement> places_;
     bool count_narrow_ = false;
     // By the owner of the mesh, which is never another one's, as an address could be.
     std::map<std::weak_ptr<const TriangleMesh>, Stages, std::owner_less<>> stages_;

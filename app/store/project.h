@@ -14,6 +14,7 @@
 #include "app/store/cut_review.h"
 #include "app/store/decisions.h"
 #include "base/sha256.h"
+#include "cam/setup/block_placement.h"
 #include "segment/import/import_scan.h"
 #include "segment/repair/options.h"
 #include "segment/search/search.h"
@@ -70,6 +71,8 @@ struct WrittenJob {
     Sha256 sha256;           // of the whole file
     std::string project_id;  // 32 hexadecimal digits, as in the job itself
     std::uint16_t part = 1;  // of a piece that several jobs mill in one clamping
+    // Where the block stands, if the arm could not follow the toolpath where its poses alone had it.
+    std::optional<BlockPlacement> place = {};
     bool operator==(const WrittenJob&) const = default;
 };
 

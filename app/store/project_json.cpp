@@ -6,6 +6,7 @@
 
 #include "app/store/value_fields.h"
 #include "base/error.h"
+#include "cam/job/setup_fields.h"
 
 namespace qchopper {
 namespace {
@@ -123,6 +124,7 @@ void fields(V& v, T& job) {
     v("sha256", job.sha256);
     v("project_id", job.project_id);
     v("part", job.part);
+    v.maybe("place", job.place);
 }
 
 template <class V, Of<Discard> T>

@@ -3,9 +3,12 @@
 #include "cam/program/sampled_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 
 namespace qchopper {
 namespace {
@@ -66,6 +69,23 @@ PoseRegion extreme_poses(const SampledPath& path) {
         region.poses.push_back({PoseKind::tip, most->tip, 0});
     }
     region.poses.push_back(region.poses.back());
+    return region;
+}
+
+PoseRegion sparse_poses(const SampledPath& path, double size) {
+    PoseRegion region = extreme_poses(path);
+    region.extremes = region.poses.size();
+    std::map<std::array<std::int64_t, 3>, std::size_t> of_cube;
+    std::size_t before = 0;
+    for (const MillingPose& pose : path.region.poses) {
+        std::array<std::int64_t, 3> cube{};
+        for (int i = 0; i < 3; ++i) {
+            cube[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(pose.tip[i] / size));
+        }
+        const auto [found, is_new] = of_cube.emplace(cube, region.poses.size());
+        if (is_new) region.poses.push_back({PoseKind::tip, pose.tip, before});
+        before = found->second;
+    }
     return region;
 }
 

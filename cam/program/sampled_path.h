@@ -32,6 +32,10 @@ struct SampledPath {
 // Precondition: there is a run. O(length / step + moves).
 SampledPath sampled_path(std::span<const PathRun> runs);
 
+// At least one pose of a path in each cube of a size that has one: after the outermost ones, each beside the one in the
+// cube before it.
+PoseRegion sparse_poses(const SampledPath& path, double size);
+
 // The outermost poses of a path along 13 axes, the first pose of the path before them, and the last one twice.
 PoseRegion extreme_poses(const SampledPath& path);
 
