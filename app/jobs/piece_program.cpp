@@ -1,6 +1,6 @@
 // One step after the other; toolpath and replay take most of the time. A setup is placed by poses that are known before
-// there is a toolpath (milling_poses.h); where the arm cannot follow it, its block is placed once more, by these poses
-// and by those of every run of the toolpath (sampled_path.h); the toolpath stays.
+// there is a toolpath (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and
+// by those of the run that was refused, and so on a few times; the toolpath stays.
 
 #include "app/jobs/piece_program.h"
 
@@ -31,6 +31,7 @@ namespace {
 
 constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
 constexpr double pose_distance = 20;   // mm, of those of a toolpath by which its block is placed
+constexpr std::size_t max_places = 6;  // of the block, the one that its setup has included
 
 std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     std::vector<Pose> frames;
@@ -79,21 +80,34 @@ Drilling drilling_of(const MadePath& made, const Piece& piece, const PlacedSetup
     return drilling;
 }
 
-// Where the machine holds the runs of a toolpath as well as the poses of its setup; nothing if there is no such place,
-// or if it is where the block stands already.
-std::optional<PlacedSetup> placed_for(const Toolpath& path, const PlacedSetup& known, const Piece& piece,
-                                      const Cell& cell, const Context& context) {
-    const Setup& setup = known.setup();
-    std::vector<OrientationPoses> poses = milling_poses(setup, *piece.mesh, cell);
-    for (const Operation& operation : path.operations) {
-        for (const PathRun& run : operation.runs) {
-            poses[operation.orientation].regions.push_back(sparse_poses(sampled_path({&run, 1}), pose_distance));
+// Places for the block of a setup, the next one after a run of the toolpath was refused at the one before.
+class OtherPlaces {
+ public:
+    OtherPlaces(const PlacedSetup& known, const Piece& piece, const Cell& cell, const Context& context)
+        : known_(known), piece_(piece), cell_(cell), context_(context) {}
+
+    // That holds best all that was refused so far, and the poses of the setup; nothing if it was tried before.
+    std::optional<PlacedSetup> next(const RefusedRun& refused) {
+        const Setup& setup = known_.setup();
+        if (poses_.empty()) {
+            poses_ = milling_poses(setup, *piece_.mesh, cell_);
+            tried_.push_back(setup.placement);
         }
+        poses_[refused.orientation].regions.push_back(sparse_poses(sampled_path({&refused.run, 1}), pose_distance));
+        const MachineReachability found = place_block(setup, poses_, cell_, {}, context_);
+        if (tried_.size() > max_places || std::ranges::find(tried_, found.placement) != tried_.end()) return {};
+        tried_.push_back(found.placement);
+        return placed_at(known_, piece_, cell_, found.placement);
     }
-    const MachineReachability found = place_block(setup, poses, cell, {}, context);
-    if (found.placement == setup.placement) return std::nullopt;
-    return placed_at(known, piece, cell, found.placement);
-}
+
+ private:
+    const PlacedSetup& known_;
+    const Piece& piece_;
+    const Cell& cell_;
+    const Context& context_;
+    std::vector<OrientationPoses> poses_;
+    std::vector<BlockPlacement> tried_;
+};
 
 struct PostedProgram {
     std::vector<ProgramPart> parts;
@@ -217,15 +231,18 @@ MadeProgram made_program(const Piece& piece, const PlacedSetup& known, std::uint
         program.made.drilling = drilling_of(program.made, piece, place, cell, caps, context);
         program.posted = make_parts(program.made, place, piece_no, cell, context);
     };
-    try {
-        post_at(known);
-    } catch (const ProgramRefused&) {
-        std::optional<PlacedSetup> other = placed_for(program.made.toolpath, known, piece, cell, context);
-        if (!other) throw;
-        program.piece_setup = std::move(*other);
-        post_at(program.piece_setup);
+    OtherPlaces places(known, piece, cell, context);
+    while (true) {
+        try {
+            post_at(program.piece_setup);
+            return program;
+        } catch (const ProgramRefused& refused) {
+            if (!refused.run()) throw;
+            std::optional<PlacedSetup> other = places.next(*refused.run());
+            if (!other) throw;
+            program.piece_setup = std::move(*other);
+        }
     }
-    return program;
 }
 
 void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& mesh) {

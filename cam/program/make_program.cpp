@@ -139,7 +139,8 @@ class OperationHolder {
                 if (divide(first, path, longest) || leave_out(first, path, longest)) continue;
                 throw ProgramRefused(
                     where + ", run " + std::to_string(first + 1) + ": no arm posture reaches it: " + refusal_,
-                    "place the block otherwise, or take other tool orientations");
+                    "place the block otherwise, or take other tool orientations",
+                    RefusedRun{operation_.orientation, runs_[first]});
             }
             planned.push_back({search_.operation(rest, path, longest), extents_of(longest.joints)});
             for (ProgramRun& run : planned.back().operation.runs) limit_speed_changes(run, max_lines_of_run_);

@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,11 +20,23 @@
 
 namespace qchopper {
 
+// Of an operation along a direction of the setup.
+struct RefusedRun {
+    std::size_t orientation = 0;
+    PathRun run;
+};
+
 // Thrown where the machine cannot mill a toolpath: what refuses which pose, and by how much.
 class ProgramRefused : public InputError {
  public:
-    explicit ProgramRefused(const std::string& why, std::string to_do_next = {})
-        : InputError(InputFault::use, why, std::move(to_do_next)) {}
+    explicit ProgramRefused(const std::string& why, std::string to_do_next = {}, std::optional<RefusedRun> run = {})
+        : InputError(InputFault::use, why, std::move(to_do_next)), run_(std::move(run)) {}
+
+    // That no arm posture takes, or the part of it; nothing if something else is refused.
+    const std::optional<RefusedRun>& run() const { return run_; }
+
+ private:
+    std::optional<RefusedRun> run_;
 };
 
 // Of every operation the arm configuration that carries all its runs, or few postures that carry them one after the
