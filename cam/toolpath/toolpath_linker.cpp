@@ -182,14 +182,15 @@ double ToolpathLinker::rounding_before(Vec3 to, MoveKind kind) const {
     return 0;
 }
 
-// A link may touch no foam; roughing stays beyond its allowance by more than it passes beside a corner.
+// A link may touch no foam, and where it ends in a rounded corner its feed holds to the end of that: the controller
+// changes it there as it likes. Roughing stays beyond its allowance by more than it passes beside a corner.
 bool ToolpathLinker::is_round_way_clear(Vec3 to, MoveKind kind, double rounding) const {
     const auto is_link = [](MoveKind of) { return of == MoveKind::link || of == MoveKind::retract; };
     for (const double t : {0.125, 0.25, 0.5, 0.75, 0.875}) {
         const Vec3 p = on_parabola(before_, at_, to, rounding, t);
         if (space_->is_limit_between && limit_at(p) > p.z + cut_into) return false;
         if (space_->is_limit_between && holder_at(p.x, p.y) > p.z) return false;
-        const bool is_before = t <= 0.5 && is_link(run_.moves.back().kind);
+        const bool is_before = is_link(run_.moves.back().kind);
         const bool is_behind = t >= 0.5 && is_link(kind);
         if ((is_before || is_behind) && stock_near(p, outer_) > p.z) return false;
     }

@@ -249,6 +249,37 @@ TEST(ToolpathLinker, NoLinkUpAlongAWallCutsIntoIt) {
     }
 }
 
+// The replay gives a rounded corner to the line that ends in it.
+TEST(ToolpathLinker, ALinkIsRoundedOnlyWhereItsCornerTouchesNoFoam) {
+    Plate plate;
+    constexpr double level = 15;
+    constexpr double edge = 110;  // foam is at x from here on
+    for (HeightField* stock : {&plate.space.stock, &plate.space.centre_stock}) {
+        for (std::size_t i = 0; i < stock->height.size(); ++i) {
+            if (static_cast<double>(i % stock->columns) < edge) stock->height[i] = 5;
+        }
+    }
+    plate.operation.rounding = 5;
+    const CuttingTool tool = flat_tool(20);
+    LinkOptions options;
+    options.has_ramps = true;
+    options.stay_down = 100;
+    ToolpathLinker builder(plate.space, tool, plate.operation, options);
+    builder.add({line({30, 100, level}, {50, 100, level}), line({97, 100, level}, {140, 100, level})});
+    const std::vector<PathRun> runs = builder.finish();
+    ASSERT_EQ(runs.size(), 1U);
+    Vec3 at = runs[0].start;
+    std::size_t links = 0;
+    for (const PathMove& move : runs[0].moves) {
+        if (move.kind == MoveKind::link && move.tip == Vec3{97, 100, level} && at.z == level) {
+            ++links;
+            EXPECT_LE(move.tip.x + move.rounding + 0.5 * tool.diameter, edge);
+        }
+        at = move.tip;
+    }
+    EXPECT_EQ(links, 1U);
+}
+
 TEST(ToolpathLinker, NoRunIsTooLongForAChunk) {
     Plate plate;
     Pass pass;
