@@ -1,6 +1,7 @@
 // One step after the other; toolpath and replay take most of the time. A setup is placed by poses that are known before
 // there is a toolpath (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and
-// by those of the run that was refused, and so on a few times; the toolpath stays.
+// by those of the run that was refused, and so on a few times; the toolpath stays. Where a joint move is refused
+// another place is tried.
 
 #include "app/jobs/piece_program.h"
 
@@ -80,27 +81,34 @@ Drilling drilling_of(const MadePath& made, const Piece& piece, const PlacedSetup
     return drilling;
 }
 
-// Places for the block of a setup, the next one after a run of the toolpath was refused at the one before.
+// Places for the block of a setup, the next one after a program was refused at the one before.
 class OtherPlaces {
  public:
     OtherPlaces(const PlacedSetup& known, const Piece& piece, const Cell& cell, const Context& context)
         : known_(known), piece_(piece), cell_(cell), context_(context) {}
 
-    // That holds best all that was refused so far, and the poses of the setup; nothing if it was tried before.
-    std::optional<PlacedSetup> next(const RefusedRun& refused) {
+    // That holds best the runs that were refused so far, and the poses of the setup; if it was tried before, the first
+    // of a coarse grid that holds them; nothing if that was tried too.
+    std::optional<PlacedSetup> next(const ProgramRefused& refused) {
         const Setup& setup = known_.setup();
         if (poses_.empty()) {
             poses_ = milling_poses(setup, *piece_.mesh, cell_);
             tried_.push_back(setup.placement);
         }
-        poses_[refused.orientation].regions.push_back(sparse_poses(sampled_path({&refused.run, 1}), pose_distance));
-        const MachineReachability found = place_block(setup, poses_, cell_, {}, context_);
-        if (tried_.size() > max_places || std::ranges::find(tried_, found.placement) != tried_.end()) return {};
-        tried_.push_back(found.placement);
-        return placed_at(known_, piece_, cell_, found.placement);
+        if (refused.run()) {
+            const auto& [orientation, run] = *refused.run();
+            poses_[orientation].regions.push_back(sparse_poses(sampled_path({&run, 1}), pose_distance));
+        }
+        std::optional<BlockPlacement> place = place_block(setup, poses_, cell_, {}, context_).placement;
+        if (is_tried(*place)) place = first_place(setup, poses_, cell_, {}, context_);
+        if (tried_.size() > max_places || !place || is_tried(*place)) return {};
+        tried_.push_back(*place);
+        return placed_at(known_, piece_, cell_, *place);
     }
 
  private:
+    bool is_tried(const BlockPlacement& place) const { return std::ranges::find(tried_, place) != tried_.end(); }
+
     const PlacedSetup& known_;
     const Piece& piece_;
     const Cell& cell_;
@@ -237,8 +245,7 @@ MadeProgram made_program(const Piece& piece, const PlacedSetup& known, std::uint
             post_at(program.piece_setup);
             return program;
         } catch (const ProgramRefused& refused) {
-            if (!refused.run()) throw;
-            std::optional<PlacedSetup> other = places.next(*refused.run());
+            std::optional<PlacedSetup> other = places.next(refused);
             if (!other) throw;
             program.piece_setup = std::move(*other);
         }
