@@ -310,8 +310,8 @@ class InProcessStock::Rays {
         return HeightField::nothing;
     }
     Vec3 middle_of(std::size_t cell) const {
-        return {cell_ * (static_cast<double>(cell % columns_) + 0.5),
-                cell_ * (static_cast<double>(cell / columns_) + 0.5), 0};
+        const std::size_t row = cell / columns_;
+        return {cell_ * (static_cast<double>(cell % columns_) + 0.5), cell_ * (static_cast<double>(row) + 0.5), 0};
     }
     Span span_of(Vec3 middle) const { return span_in(box_, apply(setup_in_map_, middle), tool_axis_); }
     double top_of(std::size_t cell) const {
