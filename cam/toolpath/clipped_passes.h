@@ -31,9 +31,10 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space
 
 double length_of(const std::vector<Pass>& passes);
 
-// The parts of passes along which a tool is `touching` at most from touching, where `cl` is the CL surface of the
-// tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
-constexpr double touching = 1.5;  // mm
+constexpr double touching = 1.5;  // mm of air at most under a tool that counts as touching
+
+// The parts of passes along which a tool is touching, where `cl` is the CL surface of the tool alone: where holder or
+// spindle keep it farther away it finishes nothing. O(length / cell).
 std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightField& cl);
 
 // Whether a ball with its tip at a point of a map touches a sawn face of the block, or would if that stood out a

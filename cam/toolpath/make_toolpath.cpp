@@ -13,6 +13,10 @@
 // surface back, at most twice for each kind of finishing, to the directions that reach it better. The finest tool
 // roughs before it finishes.
 //
+// Maps of a finishing are computed in tiles (FieldTiles) near the points that are left and face the tool, as far as the
+// passes there depend on them; elsewhere the CL surface is a bound, which keeps links off. Of four operations on a
+// piece of the bunny at 1.5 m these were 1 to 23 % of the map.
+//
 // Foam is known in cells of a sixth of the finest tool's radius, 0.5 mm at least: a small tool lowers larger cells
 // hardly at all. Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle
 // is known too (StockCells), because a skin that roughing leaves on a wall is as thick as a cell.
