@@ -1,11 +1,12 @@
 // Stretches of a row at a time, by taps that can change them. Taps are the points of the underside of the tool at the
 // centres of cells; those under which the first of all heights could not be the first in a stretch are passed over.
-// O(cells * taps) at most.
+// O(cells * taps) at most; O(cells * radius / cell) for the dilation by a flat end.
 
 #include "sim/replay/reach/cutter_morphology.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -161,6 +162,69 @@ class Morph {
     std::vector<float> first_;  // of the heights of a block, row by row
 };
 
+// Dilation by a flat end: the highest of a disc is that of the chords of its rows, and that of a chord is the higher
+// one of two runs of cells, as long as a power of two, that cover it.
+class FlatDilation {
+ public:
+    FlatDilation(const SurfaceMap& map, double radius)
+        : map_(map), most_(static_cast<std::int32_t>(std::floor(radius / map.cell))), wide_(map.columns + 2 * most_) {
+        for (std::int32_t dy = 0; dy <= most_; ++dy) {
+            std::int32_t half = most_;
+            while (map.cell * std::sqrt(static_cast<double>(half) * half + static_cast<double>(dy) * dy) > radius)
+                --half;
+            halves_.push_back(half);
+        }
+        std::vector<float> row(static_cast<std::size_t>(wide_) * map.rows, no_surface);
+        for (std::int32_t j = 0; j < map.rows; ++j) {
+            std::copy_n(map.height.begin() + static_cast<std::ptrdiff_t>(j) * map.columns, map.columns,
+                        row.begin() + static_cast<std::ptrdiff_t>(j) * wide_ + most_);
+        }
+        runs_.push_back(std::move(row));
+        // A run that goes on into the next row is not asked.
+        for (std::size_t length = 1; 2 * length <= static_cast<std::size_t>(2 * most_ + 1); length *= 2) {
+            std::vector<float> longer = runs_.back();
+            for (std::size_t i = 0; i + length < longer.size(); ++i) {
+                longer[i] = std::max(longer[i], runs_.back()[i + length]);
+            }
+            runs_.push_back(std::move(longer));
+        }
+    }
+
+    std::vector<float> result(const CellBlocks& asked) const {
+        std::vector<float> result(map_.height.size(), no_surface);
+        parallel_for(0, static_cast<std::size_t>(map_.rows), [&](std::size_t j) {
+            for (std::int32_t c = 0; c < map_.columns; c += CellBlocks::wide) {
+                if (!asked.has(c, static_cast<std::int32_t>(j))) continue;
+                float* own = result.data() + static_cast<std::ptrdiff_t>(j) * map_.columns + c;
+                stretch(static_cast<std::int32_t>(j), c, std::min(CellBlocks::wide, map_.columns - c), own);
+            }
+        });
+        return result;
+    }
+
+ private:
+    void stretch(std::int32_t j, std::int32_t column, std::int32_t count, float* own) const {
+        const std::int32_t last = std::min(map_.rows - 1, j + most_);
+        for (std::int32_t from = std::max(0, j - most_); from <= last; ++from) {
+            const std::int32_t half = halves_[static_cast<std::size_t>(std::abs(from - j))];
+            const int power = std::bit_width(static_cast<std::uint32_t>(2 * half + 1)) - 1;
+            const float* first = runs_[static_cast<std::size_t>(power)].data() +
+                                 static_cast<std::ptrdiff_t>(from) * wide_ + column + most_ - half;
+            const float* second = first + 2 * half + 1 - (std::ptrdiff_t{1} << power);
+            for (std::int32_t i = 0; i < count; ++i) {
+                const float highest = first[i] > second[i] ? first[i] : second[i];
+                own[i] = own[i] > highest ? own[i] : highest;
+            }
+        }
+    }
+
+    const SurfaceMap& map_;
+    std::int32_t most_;                     // cells from the axis to the rim
+    std::int32_t wide_;                     // of a row with as many cells before and after it
+    std::vector<std::int32_t> halves_;      // of the chord of each row from the axis: cells beside the middle
+    std::vector<std::vector<float>> runs_;  // by the power of two that is their length: the highest from a cell on
+};
+
 }  // namespace
 
 CellBlocks::CellBlocks(const SurfaceMap& map)
@@ -196,6 +260,7 @@ CellBlocks CellBlocks::grown(std::int32_t cells) const {
 }
 
 std::vector<float> dilated(const SurfaceMap& map, const Cutter& cutter, const CellBlocks& asked) {
+    if (cutter.shape == ToolShape::flat) return FlatDilation(map, cutter.radius).result(asked);
     return Morph<Dilation>(map, taps_of(cutter, map.cell)).result(asked);
 }
 

@@ -52,26 +52,60 @@ void rasterise(SurfaceMap& map, const std::array<Vec3, 3>& t) {
     }
 }
 
-// The map of the target and of the floor below it, `around` wider than the target.
-SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, double cell, double around) {
+// Raises the map to the horizontal plane at a height of the setup.
+void raise_to_floor(SurfaceMap& map, double floor_z) {
+    const Vec3 up = map.frame_in_setup.row[2];
+    if (up.z < 1e-9) return;  // seen from its edge
+    const double height = floor_z - map.frame_in_setup.shift.z;
+    for (std::int32_t j = 0; j < map.rows; ++j) {
+        const double y = map.y_min + (j + 0.5) * map.cell;
+        for (std::int32_t i = 0; i < map.columns; ++i) {
+            const double x = map.x_min + (i + 0.5) * map.cell;
+            float& own = map.height[static_cast<std::size_t>(j) * map.columns + i];
+            own = std::max(own, static_cast<float>((height - up.x * x - up.y * y) / up.z));
+        }
+    }
+}
+
+// The map of the target and of the floor below it, `around` cells wider than the target on each side.
+SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, double cell, std::int32_t around) {
     SurfaceMap map{tool_axis_frame(scene.orientations[orientation].tool_axis), 0, 0, cell, 0, 0, {}, false};
     std::vector<Vec3> points = scene.target->points;
     for (Vec3& p : points) p = apply_inverse(map.frame_in_setup, p);
     Box box{points.front(), points.front()};
     for (const Vec3 p : points) extend(box, p);
-    map.x_min = (std::floor((box.min.x - around) / cell) - 1) * cell;
-    map.y_min = (std::floor((box.min.y - around) / cell) - 1) * cell;
-    map.columns = static_cast<std::int32_t>(std::ceil((box.max.x + around - map.x_min) / cell)) + 1;
-    map.rows = static_cast<std::int32_t>(std::ceil((box.max.y + around - map.y_min) / cell)) + 1;
+    map.x_min = (std::floor(box.min.x / cell) - around - 1) * cell;
+    map.y_min = (std::floor(box.min.y / cell) - around - 1) * cell;
+    map.columns = static_cast<std::int32_t>(std::ceil((box.max.x - map.x_min) / cell)) + around + 1;
+    map.rows = static_cast<std::int32_t>(std::ceil((box.max.y - map.y_min) / cell)) + around + 1;
     map.height.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), no_surface);
     for (const Triangle& t : scene.target->triangles) rasterise(map, {points[t[0]], points[t[1]], points[t[2]]});
     for (const Vec3 p : points) raise(map, p);
-    constexpr double wide = 1e5;
-    std::array<Vec3, 4> floor{Vec3{-wide, -wide, 0}, Vec3{wide, -wide, 0}, Vec3{wide, wide, 0}, Vec3{-wide, wide, 0}};
-    for (Vec3& p : floor) p = apply_inverse(map.frame_in_setup, p + Vec3{0, 0, scene.floor_z()});
-    rasterise(map, {floor[0], floor[1], floor[2]});
-    rasterise(map, {floor[0], floor[2], floor[3]});
+    raise_to_floor(map, scene.floor_z());
     return map;
+}
+
+// Without so many cells on each side.
+SurfaceMap narrowed(const SurfaceMap& wide, std::int32_t by) {
+    SurfaceMap map{wide.frame_in_setup,
+                   wide.x_min + by * wide.cell,
+                   wide.y_min + by * wide.cell,
+                   wide.cell,
+                   wide.columns - 2 * by,
+                   wide.rows - 2 * by,
+                   {},
+                   false};
+    map.height.reserve(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+    for (std::int32_t j = 0; j < map.rows; ++j) {
+        const auto row = wide.height.begin() + static_cast<std::ptrdiff_t>(j + by) * wide.columns + by;
+        map.height.insert(map.height.end(), row, row + map.columns);
+    }
+    return map;
+}
+
+// So many cells about the target are closed with it: tips stand up to the radius beside it, on surface as far again.
+std::int32_t cells_around(const CuttingTool& tool, double cell) {
+    return static_cast<std::int32_t>(std::ceil(tool.diameter / cell)) + 2;
 }
 
 // A flat disc above the tip, where holder, spindle or wrist begin.
@@ -131,7 +165,8 @@ void clear_holder(const ReplayScene& scene, std::size_t orientation, const Cutti
     const double depth = highest - lowest;  // before tips are raised
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;
-        SurfaceMap coarse = target_surface(scene, orientation, holder_cell, radius);
+        SurfaceMap coarse =
+            target_surface(scene, orientation, holder_cell, static_cast<std::int32_t>(std::ceil(radius / holder_cell)));
         coarse.height = dilated(coarse, {ToolShape::flat, radius, 0, 0, 1}, CellBlocks::all_of(coarse));
         for (std::int32_t j = 0; j < tips.rows; ++j) {
             for (std::int32_t i = 0; i < tips.columns; ++i) {
@@ -175,8 +210,7 @@ bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_fin
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
                       const Context& context) {
     context.check_cancelled();
-    const Cutter cutter = cutter_of(tool);
-    SurfaceMap map = target_surface(scene, orientation, cell, 2 * cutter.radius + 2 * cell);
+    SurfaceMap map = target_surface(scene, orientation, cell, cells_around(tool, cell));
     close(scene, orientation, tool, CellBlocks::all_of(map), map);
     context.check_cancelled();
     return map;
@@ -247,14 +281,17 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
         std::vector<std::size_t> tools = tools_of(d);
         keep_finishing(tools, machine.tools);
         std::vector<std::pair<std::size_t, bool>> closed;  // tools, and whether their holders limit them
+        std::int32_t widest = 0;
+        for (const std::size_t tool : tools) widest = std::max(widest, cells_around(machine.tools[tool], cell));
+        std::optional<SurfaceMap> target;
         for (const std::size_t tool : tools) {
             const bool is_needless = std::any_of(closed.begin(), closed.end(), [&](const auto& finer) {
                 return adds_nothing(machine.tools[tool], machine.tools[finer.first], finer.second, machine);
             });
             if (is_needless || left.empty()) continue;
             context.check_cancelled();
-            const double radius = 0.5 * machine.tools[tool].diameter;
-            SurfaceMap map = target_surface(scene, d, cell, 2 * radius + 2 * cell);
+            if (!target) target = target_surface(scene, d, cell, widest);
+            SurfaceMap map = narrowed(*target, widest - cells_around(machine.tools[tool], cell));
             CellBlocks asked(map);
             for (const std::size_t i : left) {
                 asked.add(cells_around(map, apply_inverse(map.frame_in_setup, points[i]), most));

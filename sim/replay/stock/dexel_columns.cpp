@@ -5,6 +5,7 @@
 #include "sim/replay/stock/dexel_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace qchopper {
@@ -55,14 +56,29 @@ void append(std::vector<Dexel>& column, const std::vector<Dexel>& parts) {
     }
 }
 
+// Whether a map may have removed something from a box of another frame.
+bool is_removed_in(const DexelMap& map, const Pose& box_in_map, const Box& box) {
+    constexpr double rounding = 1e-3;  // mm, generous
+    const Vec3 middle = apply(box_in_map, 0.5 * (box.min + box.max));
+    const Vec3 half = 0.5 * (box.max - box.min);
+    const Vec3 x = rotate(box_in_map, {half.x, 0, 0});
+    const Vec3 y = rotate(box_in_map, {0, half.y, 0});
+    const Vec3 z = rotate(box_in_map, {0, 0, half.z});
+    const double wide = std::abs(x.x) + std::abs(y.x) + std::abs(z.x) + rounding;
+    const double deep = std::abs(x.y) + std::abs(y.y) + std::abs(z.y) + rounding;
+    const double high = std::abs(x.z) + std::abs(y.z) + std::abs(z.z) + rounding;
+    return map.is_cut_below(middle.z + high, {middle.x - wide, middle.x + wide, middle.y - deep, middle.y + deep});
+}
+
 }  // namespace
 
 DexelColumns::DexelColumns(const std::vector<std::unique_ptr<DexelMap>>& maps, std::size_t orientation)
-    : own_(maps[orientation].get()) {
+    : own_(maps[orientation].get()), slab_(2 * DexelTile::square * own_->cell()) {
     for (std::size_t other = 0; other < maps.size(); ++other) {
         if (other == orientation) continue;
         const Pose in_other = inverse(maps[other]->frame_in_block) * own_->frame_in_block;
-        others_.push_back({maps[other].get(), in_other, rotate(in_other, {0, 0, 1})});
+        others_.push_back(
+            {maps[other].get(), in_other, rotate(in_other, {0, 0, 1}), static_cast<Met>(1U << other % 16)});
     }
 }
 
@@ -76,6 +92,7 @@ DexelTile& DexelColumns::tile(std::int32_t tx, std::int32_t ty) {
     if (tile.version == version_) return tile;
     if (tile.version == 0) make(tile, tx, ty);
     tile.known_from.assign(DexelTile::cells, infinite);
+    tile.slabs.assign(static_cast<std::size_t>((own_->top - own_->bottom) / slab_) + 1, {});
     tile.version = version_;
     return tile;
 }
@@ -99,12 +116,50 @@ void DexelColumns::make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const
     }
 }
 
-void DexelColumns::subtract_others(TileCell at) {
+DexelColumns::Met DexelColumns::met_between(DexelTile& tile, TileCell at, double low, double high) const {
+    const auto slab_of = [&](double z) {
+        return static_cast<std::size_t>(std::clamp((own_->top - z) / slab_, 0.0, double(tile.slabs.size() - 1)));
+    };
+    const std::size_t square =
+        DexelTile::square_of_cut(static_cast<std::int32_t>(at.cell % side), static_cast<std::int32_t>(at.cell / side));
+    const std::uint64_t own_bit = std::uint64_t{1} << square;
+    Met met = 0;
+    const std::size_t end = slab_of(low) + 1;
+    for (std::size_t k = slab_of(high); k < end; ++k) {
+        DexelTile::Slab& slab = tile.slabs[k];
+        if ((slab.known & own_bit) == 0) {
+            slab.known |= own_bit;
+            slab.met[square] = met_in_slab(at, k);
+        }
+        met |= slab.met[square];
+    }
+    return met;
+}
+
+// The box about the part of a square of columns, in the frame of another map.
+DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const {
+    constexpr std::int32_t size = DexelTile::square;
+    const auto x = static_cast<std::int32_t>(at.cell % side);
+    const auto y = static_cast<std::int32_t>(at.cell / side);
+    const double x_min = own_->centre_x(at.tx * side + x / size * size);
+    const double y_min = own_->centre_y(at.ty * side + y / size * size);
+    const double wide = (size - 1) * own_->cell();
+    const double top = own_->top - static_cast<double>(slab) * slab_;
+    const Box columns{{x_min, y_min, top - slab_}, {x_min + wide, y_min + wide, top}};
+    Met met = 0;
+    for (const OtherMap& other : others_) {
+        if (is_removed_in(*other.map, other.own_in_other, columns)) met |= other.bit;
+    }
+    return met;
+}
+
+void DexelColumns::subtract_others(TileCell at, Met met) {
     const auto x = static_cast<std::int32_t>(at.cell % side);
     const auto y = static_cast<std::int32_t>(at.cell / side);
     const Vec3 foot{own_->centre_x(at.tx * side + x), own_->centre_y(at.ty * side + y), 0};
     for (const OtherMap& other : others_) {
         if (part_.empty()) return;
+        if ((met & other.bit) == 0) continue;
         other.map->remove_from(part_, apply(other.own_in_other, foot), other.along);
     }
 }
@@ -116,6 +171,8 @@ void DexelColumns::know(DexelTile& tile, TileCell at, double from_up) {
     if (!(low < high)) return;
     tile.known_from[cell] = low;
     if (!(tile.low[cell] < tile.high[cell] && tile.high[cell] > low)) return;
+    const Met met = met_between(tile, at, low, std::min(high, tile.high[cell]));
+    if (met == 0) return;
     column_.clear();
     part_.clear();
     upper_.clear();
@@ -127,7 +184,7 @@ void DexelColumns::know(DexelTile& tile, TileCell at, double from_up) {
     const BelowRange below = below_of(tile.below[cell / side], cell);
     for (auto interval = below.begin; interval != below.end; ++interval) split(interval->low, interval->high);
     split(tile.low[cell], tile.high[cell]);
-    subtract_others(at);
+    subtract_others(at, met);
     append(column_, part_);
     append(column_, upper_);
     write(tile, cell);

@@ -2,7 +2,8 @@
 //
 // mm, in the frame of the direction. Foam only ever becomes less, so that a column of earlier is never too short: it
 // is kept, and what the other directions have taken from it since is subtracted only where a tool comes, and only from
-// there up (DexelTile::known_from). O(cells of the other maps along that part of the column)
+// there up (DexelTile::known_from), of the directions that may have taken something from a square of columns there
+// (DexelTile::Slab). O(cells of those maps along that part of the column)
 // (tests/sim/replay/stock/stock_model_test.cpp).
 
 #pragma once
@@ -48,13 +49,19 @@ class DexelColumns {
     struct OtherMap {
         const DexelMap* map = nullptr;
         Pose own_in_other;
-        Vec3 along;  // of the columns
+        Vec3 along;             // of the columns
+        std::uint16_t bit = 0;  // in DexelTile::Slab
     };
     void make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const;
-    void subtract_others(TileCell at);
+    using Met = std::uint16_t;  // a bit for each of the other maps, as in DexelTile::Slab
+    // Of the part of a column between two heights, at least.
+    Met met_between(DexelTile& tile, TileCell at, double low, double high) const;
+    Met met_in_slab(TileCell at, std::size_t slab) const;
+    void subtract_others(TileCell at, Met met);
     void write(DexelTile& tile, std::size_t cell);
 
     DexelMap* own_;
+    double slab_ = 0;  // mm
     std::vector<OtherMap> others_;
     std::uint64_t version_ = 0;
     // Of the column that is being made known, ascending: all of it, and the part to subtract from.

@@ -65,6 +65,7 @@ DexelMap::DexelMap(const Box& block_box, Vec3 tool_axis, double cell)
         extend(bounds, q);
     }
     top = bounds.max.z;
+    bottom = bounds.min.z;
     // Middles of cells lie on multiples of the cell plus a half, whatever the block is.
     x_min_ = (std::floor(bounds.min.x / cell) - border) * cell;
     y_min_ = (std::floor(bounds.min.y / cell) - border) * cell;
@@ -177,16 +178,16 @@ double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& 
     return next;
 }
 
-bool DexelMap::is_cut_near(double x, double y, double across, double height) const {
+bool DexelMap::is_cut_below(double height, const MapRectangle& within) const {
     constexpr std::int32_t squares = DexelTile::side / DexelTile::square;  // of a tile, each way
     const auto square_of = [&](double at, double begin, std::int32_t tiles) {
         const double square = std::floor((at - begin) / cell_ / DexelTile::square);
         return static_cast<std::int32_t>(std::clamp(square, 0.0, static_cast<double>(tiles * squares - 1)));
     };
-    const std::int32_t i_end = square_of(x + across, x_min_, tiles_x_);
-    const std::int32_t j_end = square_of(y + across, y_min_, tiles_y_);
-    for (std::int32_t j = square_of(y - across, y_min_, tiles_y_); j <= j_end; ++j) {
-        for (std::int32_t i = square_of(x - across, x_min_, tiles_x_); i <= i_end; ++i) {
+    const std::int32_t i_end = square_of(within.x_max, x_min_, tiles_x_);
+    const std::int32_t j_end = square_of(within.y_max, y_min_, tiles_y_);
+    for (std::int32_t j = square_of(within.y_min, y_min_, tiles_y_); j <= j_end; ++j) {
+        for (std::int32_t i = square_of(within.x_min, x_min_, tiles_x_); i <= i_end; ++i) {
             const DexelTile* here = tile(i / squares, j / squares);
             if (here == nullptr) continue;
             const auto in_tile =
@@ -200,7 +201,8 @@ bool DexelMap::is_cut_near(double x, double y, double across, double height) con
 double DexelMap::distance_to_removed(Vec3 point, double most) const {
     constexpr auto side = DexelTile::side;
     const bool is_within_few_squares = most <= DexelTile::square * cell_;
-    if (is_within_few_squares && !is_cut_near(point.x, point.y, most, point.z + most)) return most;
+    const MapRectangle about{point.x - most, point.x + most, point.y - most, point.y + most};
+    if (is_within_few_squares && !is_cut_below(point.z + most, about)) return most;
     return distance_to_cells(point, x_min_, y_min_, cell_, most, [&](std::int32_t i, std::int32_t j) {
         const bool is_in = i >= 0 && j >= 0 && i < tiles_x_ * side && j < tiles_y_ * side;
         const DexelTile* here = is_in ? tile(i / side, j / side) : nullptr;

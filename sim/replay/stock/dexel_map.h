@@ -41,6 +41,13 @@ struct DexelTile {
     float max_cut = std::numeric_limits<float>::infinity();
     std::uint64_t lowered_squares = 0;  // a bit per square: since measure_most
     std::uint64_t version = 0;          // of the other maps to which `known_from` refers; 0: there are no columns
+    // Of the columns of a square of 8 x 8 cells, slab by slab from the top of the map down: a bit for each other map
+    // that may have removed something there, once it is known (dexel_columns.h).
+    struct Slab {
+        std::uint64_t known = 0;  // a bit per square
+        std::array<std::uint16_t, cells / (square * square)> met{};
+    };
+    std::vector<Slab> slabs;
     // Highest foam of each square of 16 x 16 cells; too high is allowed.
     static constexpr std::int32_t top_square = 16;
     std::array<float, cells / (top_square * top_square)> top{};
@@ -78,6 +85,14 @@ struct CellRange {
     std::int32_t y_end = 0;
 };
 
+// Of points of a map's frame, closed.
+struct MapRectangle {
+    double x_min = 0;
+    double x_max = 0;
+    double y_min = 0;
+    double y_max = 0;
+};
+
 // Distance from a point to the nearest of the points above the centres of square cells, at most `most`; the first cell
 // has its corner at x_min, y_min, and height_at(i, j) says where they begin: infinite where there are none. Ring by
 // ring about the point, as long as a nearer one can come.
@@ -111,12 +126,15 @@ class DexelMap {
     double centre_y(std::int32_t j) const { return y_min_ + (j + 0.5) * cell_; }
     const DexelTile* tile(std::int32_t tx, std::int32_t ty) const { return tiles_[index(tx, ty)].get(); }
     DexelTile& made_tile(std::int32_t tx, std::int32_t ty);
+    double cell() const { return cell_; }
     std::int32_t tiles_x() const { return tiles_x_; }
     std::int32_t tiles_y() const { return tiles_y_; }
     // Height to which the cell of a point is cleared; infinite outside.
     float cut_at(double x, double y) const;
     // Takes from the intervals what was removed along this direction. The line is from + t * along, in this frame.
     void remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along) const;
+    // Whether a cell of the squares of 8 x 8 cells that hold points of a rectangle was cleared below a height.
+    bool is_cut_below(double height, const MapRectangle& within) const;
     // Distance from a point of this frame to the nearest removed point of it, at most `most`.
     double distance_to_removed(Vec3 point, double most) const;
     // Where the line meets the block; empty if it does not.
@@ -124,7 +142,8 @@ class DexelMap {
 
     Pose frame_in_block;
     Box block;
-    double top = 0;             // of the block in this frame
+    double top = 0;  // of the block in this frame
+    double bottom = 0;
     std::uint64_t version = 1;  // grows with every change
 
  private:
@@ -141,8 +160,6 @@ class DexelMap {
         std::int32_t i = 0;
         std::int32_t j = 0;
     };
-    // Whether any cell of the squares that hold points nearer than that, across, was cleared below a height.
-    bool is_cut_near(double x, double y, double across, double height) const;
     double remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
                             double t, double end) const;
     // From t on, where in a square of `step` cells, a power of 2, the line leaves it, but not beyond `end`.

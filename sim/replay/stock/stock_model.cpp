@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "sim/replay/stock/dexel_columns.h"
@@ -24,7 +25,7 @@ std::size_t cell_of(std::int32_t i, std::int32_t j) {
 }
 
 // mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
-constexpr double known_below = 2;
+constexpr double known_below = 8;
 
 }  // namespace
 
@@ -64,21 +65,81 @@ void for_tiles(DexelColumns& columns, const CellRange& cells, const Work& work) 
     }
 }
 
-// A cutter over the cells of a row of one square of a map.
-struct CutterOverSquare {
-    static_assert(SweptCutter::at_once == DexelTile::square);
-    SweptCutter::Row x;  // from where the move begins
-    SweptCutter::Row z;
+// A cutter that goes straight over the cells of a map.
+class SweepOverMap {
+ public:
+    using Row = SweptCutter::Row;
 
-    // Of the square that holds a cell.
-    void find(const SweptCutter& swept, const DexelMap& map, std::int32_t cell, double from_x, double y) {
-        const std::int32_t first = cell / DexelTile::square * DexelTile::square;
-        for (std::int32_t k = 0; k < DexelTile::square; ++k) {
-            x[static_cast<std::size_t>(k)] = map.centre_x(first + k) - from_x;
-        }
-        swept.heights(x, y, z);
+    // From a place of the map's frame.
+    SweepOverMap(const Cutter& cutter, Vec3 from, Vec3 move, const DexelMap& map)
+        : swept_(cutter, move), map_(map), from_(from), move_(move) {}
+    // Below this it does not come.
+    double least() const { return from_.z + std::min(0.0, move_.z); }
+    CellRange cells() const {
+        const double r = swept_.cutter().radius;
+        return map_.range(std::min(from_.x, from_.x + move_.x) - r, std::max(from_.x, from_.x + move_.x) + r,
+                          std::min(from_.y, from_.y + move_.y) - r, std::max(from_.y, from_.y + move_.y) + r);
     }
+    // Below this it does not come in the square that begins with a cell: the profile at the square's distance from the
+    // axis, which is at least that of its middle less half a diagonal.
+    double least_in_square(std::int32_t x, std::int32_t y) const {
+        constexpr double half = 0.5 * (DexelTile::square - 1);
+        const Vec3 middle{map_.centre_x(x) + half * map_.cell() - from_.x,
+                          map_.centre_y(y) + half * map_.cell() - from_.y, 0};
+        const double length2 = move_.x * move_.x + move_.y * move_.y;
+        const double along = middle.x * move_.x + middle.y * move_.y;
+        const double share = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0;
+        const double off_x = middle.x - share * move_.x;
+        const double off_y = middle.y - share * move_.y;
+        const double aside = std::sqrt(off_x * off_x + off_y * off_y) - std::numbers::sqrt2 * half * map_.cell();
+        const double radius = swept_.cutter().radius;
+        return aside > 0 ? least() + profile_height(swept_.cutter(), std::min(aside, radius)) : least();
+    }
+    // The cells of a row that it reaches.
+    CellRange reach_of_row(std::int32_t y) const {
+        double x_min = 0;
+        double x_max = 0;
+        swept_.reach_of_row(y_of(y), x_min, x_max);
+        return map_.range(from_.x + x_min, from_.x + x_max, 0, 0);
+    }
+    double x_of(std::int32_t x) const { return map_.centre_x(x) - from_.x; }
+    double y_of(std::int32_t y) const { return map_.centre_y(y) - from_.y; }
+    // The heights of its surface over the cells from one on, in a row, and whether it comes below one of theirs.
+    bool is_below(std::int32_t x, std::int32_t y, const float* heights, Row& z) const {
+        static_assert(SweptCutter::at_once == DexelTile::square);
+        Row at;
+        for (std::int32_t k = 0; k < DexelTile::square; ++k) at[static_cast<std::size_t>(k)] = x_of(x + k);
+        swept_.heights(at, y_of(y), z);
+        int below = 0;
+        for (std::size_t k = 0; k < z.size(); ++k) {
+            z[k] += from_.z;
+            below += static_cast<float>(z[k]) < heights[k] ? 1 : 0;
+        }
+        return below > 0;
+    }
+    SweptCutter::Height height(std::int32_t x, std::int32_t y) const { return swept_.height(x_of(x), y_of(y)); }
+
+ private:
+    SweptCutter swept_;
+    const DexelMap& map_;
+    Vec3 from_;
+    Vec3 move_;
 };
+
+// Calls work(x, y) for the first cell of each square of a tile that has one of the cells; all count from the tile's.
+template <class Work>
+void for_squares(const CellRange& cells, const Work& work) {
+    constexpr std::int32_t size = DexelTile::square;
+    for (std::int32_t y = std::max(0, cells.y_begin) / size * size; y < std::min(cells.y_end, side); y += size) {
+        for (std::int32_t x = std::max(0, cells.x_begin) / size * size; x < std::min(cells.x_end, side); x += size) {
+            work(x, y);
+        }
+    }
+}
+
+CellRange moved_by(const CellRange& cells, std::int32_t x, std::int32_t y) {
+    return {cells.x_begin + x, cells.x_end + x, cells.y_begin + y, cells.y_end + y};
+}
 
 }  // namespace
 
@@ -87,59 +148,57 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     DexelColumns& columns = *columns_[orientation];
     const Vec3 a = apply_inverse(map.frame_in_block, from);
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
-    const SweptCutter swept(cutter, move);
-    const SweptCutter inner(inset_cutter(cutter, contact_mm), move);
+    const SweepOverMap sweep(cutter, a, move, map);
+    const SweepOverMap inner(inset_cutter(cutter, contact_mm), a, move, map);
     CutResult result;
     std::vector<double> deep;  // where along the move foam stands above the flute, of each cell
     double length = 0;
-    const double r = cutter.radius;
-    const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
-                                      std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
-    const double least = a.z + std::min(0.0, move.z);
-    CutterOverSquare over;
+    const CellRange cells = sweep.cells();
+    const double least = sweep.least();
+    const auto cut_cell = [&](DexelTile& tile, TileCell at, double z) {
+        const std::size_t cell = at.cell;
+        tile.lower_cut(cell, static_cast<float>(z));
+        if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) return;
+        columns.know(tile, at, z - known_below);
+        const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
+        length += removal.length;
+        if (removal.length <= contact_mm) return;
+        const double most = removal.top - least;  // deeper it is not
+        if (result.touches && most <= result.depth && most <= flute) return;
+        const auto x = at.tx * side + static_cast<std::int32_t>(cell % side);
+        const auto y = at.ty * side + static_cast<std::int32_t>(cell / side);
+        if (!(a.z + contact_mm + inner.height(x, y).z < removal.top - contact_mm)) return;
+        result.touches = true;
+        const double depth = removal.top - (a.z + sweep.height(x, y).tip_z);
+        result.depth = std::max(result.depth, depth);
+        if (depth > flute) deep.push_back(move.x * sweep.x_of(x) + move.y * sweep.y_of(y));
+    };
+    std::array<CellRange, side> rows;
+    SweepOverMap::Row z;
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         if (tile.max_cut <= least) return;
-        const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
-        for (std::int32_t j = std::max(0, cells.y_begin - ty * side); j < y_end; ++j) {
-            const double y = map.centre_y(ty * side + j) - a.y;
-            double x_min = 0;
-            double x_max = 0;
-            swept.reach_of_row(y, x_min, x_max);
-            const CellRange row = map.range(x_min + a.x, x_max + a.x, 0, 0);
-            const std::int32_t x_begin = std::max(0, row.x_begin - tx * side);
-            const std::int32_t x_end = std::min(row.x_end - tx * side, side);
-            for (std::int32_t i = x_begin; i < x_end; ++i) {
-                if (i == x_begin || i % DexelTile::square == 0) {
-                    if (tile.max_of_square[DexelTile::square_of_cut(i, j)] <= least) {
-                        i |= DexelTile::square - 1;
-                        continue;
-                    }
-                    over.find(swept, map, tx * side + i, a.x, y);
-                }
-                const auto cell = cell_of(i, j);
-                const auto in_square = static_cast<std::size_t>(i % DexelTile::square);
-                const double z = a.z + over.z[in_square];
-                if (tile.cut[cell] <= least || !(z < tile.cut[cell])) continue;
-                const double x = over.x[in_square];
-                tile.lower_cut(cell, static_cast<float>(z));
-                if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
-                columns.know(tile, {tx, ty, cell}, z - known_below);
-                const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
-                length += removal.length;
-                if (removal.length <= contact_mm) continue;
-                const SweptCutter::Height inside = inner.height(x, y);
-                if (!(a.z + contact_mm + inside.z < removal.top - contact_mm)) continue;
-                result.touches = true;
-                const double depth = removal.top - (a.z + swept.height(x, y).tip_z);
-                result.depth = std::max(result.depth, depth);
-                if (depth > flute) deep.push_back(move.x * x + move.y * y);
-            }
+        const CellRange own = moved_by(cells, -tx * side, -ty * side);
+        for (std::int32_t j = std::max(0, own.y_begin); j < std::min(own.y_end, side); ++j) {
+            rows[static_cast<std::size_t>(j)] = moved_by(sweep.reach_of_row(ty * side + j), -tx * side, 0);
         }
+        for_squares(own, [&](std::int32_t x, std::int32_t y) {
+            const float most = tile.max_of_square[DexelTile::square_of_cut(x, y)];
+            if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y)) return;
+            for (std::int32_t j = std::max(y, own.y_begin); j < std::min(y + DexelTile::square, own.y_end); ++j) {
+                const CellRange& row = rows[static_cast<std::size_t>(j)];
+                if (row.x_begin >= x + DexelTile::square || row.x_end <= x) continue;
+                const std::size_t first = cell_of(x, j);
+                if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;
+                for (std::size_t k = 0; k < z.size(); ++k) {
+                    if (static_cast<float>(z[k]) < tile.cut[first + k]) cut_cell(tile, {tx, ty, first + k}, z[k]);
+                }
+            }
+        });
         tile.measure_most();
     });
     if (length > 0) ++map.version;
     result.volume = length * cell_ * cell_;
-    const double diameter = 2 * r * std::hypot(move.x, move.y);  // as `deep` is measured
+    const double diameter = 2 * cutter.radius * std::hypot(move.x, move.y);  // as `deep` is measured
     result.deep_mm2 = static_cast<double>(max_within(deep, diameter)) * cell_ * cell_;
     return result;
 }
