@@ -17,9 +17,10 @@
 namespace qchopper {
 namespace {
 
-constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
-constexpr int chords = 6;           // of a parabola
-constexpr double straight = 0.001;  // mm of deviation that needs no parabola
+constexpr double written = 0.011;      // mm: what rounding of coordinates may do to a bound
+constexpr int max_chords = 6;          // of a parabola
+constexpr double chord_error = 0.003;  // mm between a chord and the parabola, where fewer chords suffice for it
+constexpr double straight = 0.001;     // mm of deviation that needs no parabola
 // Of the tool's section, and of its diameter in mm: so much foam may stand above the flute while the tool goes on by
 // its diameter. It is what rounding of a corner leaves, and skins on walls that are thinner than half a millimetre.
 constexpr double deep_share = 0.1;
@@ -262,6 +263,9 @@ std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const 
         way.push_back(line.to);
         return way;
     }
+    // Equal parts of the parameter lie at equal distances from their chords, n^-2 of the whole's, which is the
+    // deviation.
+    const int chords = std::clamp(static_cast<int>(std::ceil(std::sqrt(last.deviation / chord_error))), 1, max_chords);
     for (int i = 0; i <= chords; ++i) way.push_back(last.at(static_cast<double>(i) / chords));
     return way;
 }

@@ -196,6 +196,13 @@ void SweptCutter::heights(const Row& x, double y, Row& z) const {
     }
 }
 
+// Of a level or rising move the surface over a point rises with the place, as long as the point is behind it. A ball
+// that descends touches the point behind its middle by the sine of the slope.
+double SweptCutter::touches_before() const {
+    if (slope_ >= 0) return 0;
+    return cutter_.shape == ToolShape::ball ? -ball_share_ * cutter_.radius : cutter_.radius;
+}
+
 void SweptCutter::reach_of_row(double y, double& x_min, double& x_max) const {
     const double r = cutter_.radius;
     double from = 0;

@@ -59,6 +59,9 @@ class SweptCutter {
     // A lower bound of the distance for all points of a triangle, from the cylinder about the tool. It nears the
     // distance with the square of the triangle's size, except at the edge of the cylinder.
     double min_from_cylinder(const std::array<Vec3, 3>& triangle) const;
+    // How far before the place where the move begins, against its way, points may be that it does not leave to the tool
+    // as it stands there.
+    double touches_before() const;
     // The x of the points of a row that the tool can reach lie between these two.
     void reach_of_row(double y, double& x_min, double& x_max) const;
     const Cutter& cutter() const { return cutter_; }

@@ -12,6 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::int32_t side = DexelTile::side;
+constexpr double rounding = 1e-3;  // mm, generous
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 struct BelowRange {
@@ -58,7 +59,6 @@ void append(std::vector<Dexel>& column, const std::vector<Dexel>& parts) {
 
 // Whether a map may have removed something from a box of another frame.
 bool is_removed_in(const DexelMap& map, const Pose& box_in_map, const Box& box) {
-    constexpr double rounding = 1e-3;  // mm, generous
     const Vec3 middle = apply(box_in_map, 0.5 * (box.min + box.max));
     const Vec3 half = 0.5 * (box.max - box.min);
     const Vec3 x = rotate(box_in_map, {half.x, 0, 0});
@@ -78,7 +78,7 @@ DexelColumns::DexelColumns(const std::vector<std::unique_ptr<DexelMap>>& maps, s
         if (other == orientation) continue;
         const Pose in_other = inverse(maps[other]->frame_in_block) * own_->frame_in_block;
         others_.push_back(
-            {maps[other].get(), in_other, rotate(in_other, {0, 0, 1}), static_cast<Met>(1U << other % 16)});
+            {maps[other].get(), in_other, rotate(in_other, {0, 0, 1}), static_cast<Maps>(1U << other % 16)});
     }
 }
 
@@ -123,7 +123,7 @@ DexelColumns::Met DexelColumns::met_between(DexelTile& tile, TileCell at, double
     const std::size_t square =
         DexelTile::square_of_cut(static_cast<std::int32_t>(at.cell % side), static_cast<std::int32_t>(at.cell / side));
     const std::uint64_t own_bit = std::uint64_t{1} << square;
-    Met met = 0;
+    Met met{0, high, low};
     const std::size_t end = slab_of(low) + 1;
     for (std::size_t k = slab_of(high); k < end; ++k) {
         DexelTile::Slab& slab = tile.slabs[k];
@@ -131,13 +131,17 @@ DexelColumns::Met DexelColumns::met_between(DexelTile& tile, TileCell at, double
             slab.known |= own_bit;
             slab.met[square] = met_in_slab(at, k);
         }
-        met |= slab.met[square];
+        if (slab.met[square] == 0) continue;
+        const double top = own_->top - static_cast<double>(k) * slab_;
+        if (met.maps == 0) met.high = k == 0 ? high : std::min(high, top + rounding);
+        met.low = k + 1 == tile.slabs.size() ? low : std::max(low, top - slab_ - rounding);
+        met.maps |= slab.met[square];
     }
     return met;
 }
 
 // The box about the part of a square of columns, in the frame of another map.
-DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const {
+DexelColumns::Maps DexelColumns::met_in_slab(TileCell at, std::size_t slab) const {
     constexpr std::int32_t size = DexelTile::square;
     const auto x = static_cast<std::int32_t>(at.cell % side);
     const auto y = static_cast<std::int32_t>(at.cell / side);
@@ -146,14 +150,14 @@ DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const
     const double wide = (size - 1) * own_->cell();
     const double top = own_->top - static_cast<double>(slab) * slab_;
     const Box columns{{x_min, y_min, top - slab_}, {x_min + wide, y_min + wide, top}};
-    Met met = 0;
+    Maps met = 0;
     for (const OtherMap& other : others_) {
         if (is_removed_in(*other.map, other.own_in_other, columns)) met |= other.bit;
     }
     return met;
 }
 
-void DexelColumns::subtract_others(TileCell at, Met met) {
+void DexelColumns::subtract_others(TileCell at, Maps met) {
     const auto x = static_cast<std::int32_t>(at.cell % side);
     const auto y = static_cast<std::int32_t>(at.cell / side);
     const Vec3 foot{own_->centre_x(at.tx * side + x), own_->centre_y(at.ty * side + y), 0};
@@ -172,19 +176,19 @@ void DexelColumns::know(DexelTile& tile, TileCell at, double from_up) {
     tile.known_from[cell] = low;
     if (!(tile.low[cell] < tile.high[cell] && tile.high[cell] > low)) return;
     const Met met = met_between(tile, at, low, std::min(high, tile.high[cell]));
-    if (met == 0) return;
+    if (met.maps == 0) return;
     column_.clear();
     part_.clear();
     upper_.clear();
     const auto split = [&](float from, float to) {
-        add_part(column_, from, std::min(to, low));
-        add_part(part_, std::max(from, low), std::min(to, high));
-        add_part(upper_, std::max(from, high), to);
+        add_part(column_, from, std::min<double>(to, met.low));
+        add_part(part_, std::max<double>(from, met.low), std::min<double>(to, met.high));
+        add_part(upper_, std::max<double>(from, met.high), to);
     };
     const BelowRange below = below_of(tile.below[cell / side], cell);
     for (auto interval = below.begin; interval != below.end; ++interval) split(interval->low, interval->high);
     split(tile.low[cell], tile.high[cell]);
-    subtract_others(at, met);
+    subtract_others(at, met.maps);
     append(column_, part_);
     append(column_, upper_);
     write(tile, cell);

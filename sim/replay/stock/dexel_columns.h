@@ -53,11 +53,16 @@ class DexelColumns {
         std::uint16_t bit = 0;  // in DexelTile::Slab
     };
     void make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const;
-    using Met = std::uint16_t;  // a bit for each of the other maps, as in DexelTile::Slab
-    // Of the part of a column between two heights, at least.
+    using Maps = std::uint16_t;  // a bit for each of the other maps, as in DexelTile::Slab
+    // Which of them may have removed something from a part of a column, and between which heights.
+    struct Met {
+        Maps maps = 0;
+        double low = 0;
+        double high = 0;
+    };
     Met met_between(DexelTile& tile, TileCell at, double low, double high) const;
-    Met met_in_slab(TileCell at, std::size_t slab) const;
-    void subtract_others(TileCell at, Met met);
+    Maps met_in_slab(TileCell at, std::size_t slab) const;
+    void subtract_others(TileCell at, Maps met);
     void write(DexelTile& tile, std::size_t cell);
 
     DexelMap* own_;

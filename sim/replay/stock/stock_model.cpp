@@ -95,6 +95,19 @@ class SweepOverMap {
         const double radius = swept_.cutter().radius;
         return aside > 0 ? least() + profile_height(swept_.cutter(), std::min(aside, radius)) : least();
     }
+    // Whether all of that square is left to the cutter as it stands where the move begins: behind that place nothing of
+    // a level or rising move comes lower, nor a ball of a descending one that touches no farther back than its share.
+    bool is_behind(std::int32_t x, std::int32_t y) const {
+        constexpr double half = 0.5 * (DexelTile::square - 1);
+        const double across = half * map_.cell();
+        const double length = std::sqrt(move_.x * move_.x + move_.y * move_.y);
+        if (length < 1e-9) return false;
+        const double along =
+            ((map_.centre_x(x) + across - from_.x) * move_.x + (map_.centre_y(y) + across - from_.y) * move_.y) /
+            length;
+        const double before = swept_.touches_before();
+        return along + std::numbers::sqrt2 * across < -before;
+    }
     // The cells of a row that it reaches.
     CellRange reach_of_row(std::int32_t y) const {
         double x_min = 0;
@@ -150,6 +163,9 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
     const SweepOverMap sweep(cutter, a, move, map);
     const SweepOverMap inner(inset_cutter(cutter, contact_mm), a, move, map);
+    const bool goes_on =
+        last_move_ && last_move_->orientation == orientation && last_move_->cutter == cutter && last_move_->to == from;
+    last_move_ = {orientation, cutter, to};
     CutResult result;
     std::vector<double> deep;  // where along the move foam stands above the flute, of each cell
     double length = 0;
@@ -184,6 +200,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
         for_squares(own, [&](std::int32_t x, std::int32_t y) {
             const float most = tile.max_of_square[DexelTile::square_of_cut(x, y)];
             if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y)) return;
+            if (goes_on && sweep.is_behind(tx * side + x, ty * side + y)) return;
             for (std::int32_t j = std::max(y, own.y_begin); j < std::min(y + DexelTile::square, own.y_end); ++j) {
                 const CellRange& row = rows[static_cast<std::size_t>(j)];
                 if (row.x_begin >= x + DexelTile::square || row.x_end <= x) continue;
@@ -308,6 +325,7 @@ void StockModel::start_from(const StockRecord& stock) {
     for (std::size_t d = 0; d < maps_.size(); ++d) {
         if (!is_equal(stock.maps[d].tool_axis, tool_axes_[d])) refuse_stock("other orientations");
     }
+    last_move_.reset();
     for (std::size_t d = 0; d < maps_.size(); ++d) lower(*maps_[d], stock.maps[d]);
 }
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/box.h"
@@ -76,6 +77,13 @@ class StockModel {
     double cell_;
     std::vector<std::unique_ptr<DexelMap>> maps_;
     std::vector<std::unique_ptr<DexelColumns>> columns_;  // per map
+    // Where the last move of cut() ended: what is about there was removed by it.
+    struct LastMove {
+        std::size_t orientation = 0;
+        Cutter cutter;
+        Vec3 to;
+    };
+    std::optional<LastMove> last_move_;
 };
 
 }  // namespace qchopper
