@@ -14,6 +14,10 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int search_steps = 48;  // (2/3)^48 = 3.5e-9 of the move
 
+double length_of(double x, double y) {
+    return std::sqrt(x * x + y * y);
+}
+
 // Negative inside; z from the tip.
 double distance_from(const Cutter& cutter, double r, double z) {
     switch (cutter.shape) {
@@ -227,22 +231,30 @@ double SweptCutter::distance(Vec3 point) const {
         const double y = point.y - s * move_.y;
         return distance_from(cutter_, std::sqrt(x * x + y * y), point.z - s * move_.z);
     };
+    if (cutter_.shape == ToolShape::flat) return at(place_in_cylinder(point));
     return dot(move_, move_) < 1e-18 ? at(0) : at(place_of_least(0, 1, at));
+}
+
+// Where the axis is nearest, unless the tip is farther above the point there: then towards the lower end of the move.
+double SweptCutter::place_in_cylinder(Vec3 p) const {
+    const double lower_end = move_.z < 0 ? 1 : 0;
+    if (length_ == 0) return lower_end;
+    const double nearest = std::clamp((p.x * unit_x_ + p.y * unit_y_) / length_, 0.0, 1.0);
+    const auto aside = [&](double s) { return length_of(p.x - s * move_.x, p.y - s * move_.y) - cutter_.radius; };
+    const auto below = [&](double s) { return s * move_.z - p.z; };
+    if (move_.z == 0 || aside(nearest) >= below(nearest)) return nearest;
+    return place_of_least(std::min(nearest, lower_end), std::max(nearest, lower_end),
+                          [&](double s) { return std::max(aside(s), below(s)); });
 }
 
 // The distance from the cylinder is the least over the places s of the larger of two convex functions of point and
 // place: `aside` from the axis, `below` the tip. Any mean of their tangents at one place is below both.
 double SweptCutter::min_from_cylinder(const std::array<Vec3, 3>& triangle) const {
     const Vec3 m = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
-    const auto aside_at = [&](double s) {
-        const double x = m.x - s * move_.x;
-        const double y = m.y - s * move_.y;
-        return std::sqrt(x * x + y * y) - cutter_.radius;
-    };
-    const double s = place_of_least(0, 1, [&](double at) { return std::max(aside_at(at), at * move_.z - m.z); });
-    const double aside = aside_at(s);
+    const double s = place_in_cylinder(m);
+    const double r = length_of(m.x - s * move_.x, m.y - s * move_.y);
+    const double aside = r - cutter_.radius;
     const double below = s * move_.z - m.z;
-    const double r = aside + cutter_.radius;
     const Vec3 out = r > 0 ? (1 / r) * Vec3{m.x - s * move_.x, m.y - s * move_.y, 0} : Vec3{};
     const double aside_by_s = -(out.x * move_.x + out.y * move_.y);
     const auto bound = [&](double share) {

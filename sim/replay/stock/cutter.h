@@ -67,6 +67,9 @@ class SweptCutter {
     const Cutter& cutter() const { return cutter_; }
 
  private:
+    // Of 0..1 of the move, where the cylinder about the tool is nearest to a point or holds it deepest.
+    double place_in_cylinder(Vec3 point) const;
+
     Cutter cutter_;
     Vec3 move_;
     double length_ = 0;  // along the plane

@@ -54,6 +54,22 @@ void DexelTile::measure_most() {
     max_cut = *std::max_element(max_of_square.begin(), max_of_square.end());
 }
 
+// In lanes, which compilers turn into vectors.
+float DexelTile::highest_in(std::size_t first) const {
+    std::array<float, square> highest;
+    highest.fill(-std::numeric_limits<float>::infinity());
+    for (std::int32_t j = 0; j < top_square; ++j) {
+        for (std::int32_t i = 0; i < top_square; i += square) {
+            const std::size_t begin = first + static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
+            for (std::size_t k = 0; k < highest.size(); ++k) {
+                const float own = low[begin + k] < high[begin + k] ? high[begin + k] : highest[k];
+                highest[k] = own > highest[k] ? own : highest[k];
+            }
+        }
+    }
+    return *std::max_element(highest.begin(), highest.end());
+}
+
 DexelMap::DexelMap(const Box& block_box, Vec3 tool_axis, double cell)
     : frame_in_block(tool_axis_frame(tool_axis)), block(block_box), cell_(cell) {
     Box bounds;

@@ -64,7 +64,24 @@ struct DexelTile {
         min_of_square[in] = std::min(min_of_square[in], height);
         lowered_squares |= std::uint64_t{1} << in;
     }
+    // The same of the cells of a row of a square, from its first one on, where that lowers them. In lanes, which
+    // compilers turn into vectors.
+    void lower_cuts(std::size_t first, const std::array<float, square>& heights) {
+        float* own = &cut[first];
+        std::array<float, square> lower;
+        for (std::size_t k = 0; k < lower.size(); ++k) lower[k] = heights[k] < own[k] ? heights[k] : own[k];
+        for (std::size_t k = 0; k < lower.size(); ++k) own[k] = lower[k];
+        for (std::size_t k = 0; k < 4; ++k) lower[k] = lower[k + 4] < lower[k] ? lower[k + 4] : lower[k];
+        const float least = std::min(std::min(lower[0], lower[1]), std::min(lower[2], lower[3]));
+        min_cut = std::min(min_cut, least);
+        const std::size_t in =
+            square_of_cut(static_cast<std::int32_t>(first) % side, static_cast<std::int32_t>(first) / side);
+        min_of_square[in] = std::min(min_of_square[in], least);
+        lowered_squares |= std::uint64_t{1} << in;
+    }
     void measure_most();
+    // Of the columns of the square of `top` that begins with a cell.
+    float highest_in(std::size_t first) const;
     static constexpr std::size_t square_of_cut(std::int32_t x, std::int32_t y) {
         return static_cast<std::size_t>(y / square) * (side / square) + static_cast<std::size_t>(x / square);
     }

@@ -68,7 +68,7 @@ void for_tiles(DexelColumns& columns, const CellRange& cells, const Work& work) 
 // A cutter that goes straight over the cells of a map.
 class SweepOverMap {
  public:
-    using Row = SweptCutter::Row;
+    using Row = std::array<float, DexelTile::square>;
 
     // From a place of the map's frame.
     SweepOverMap(const Cutter& cutter, Vec3 from, Vec3 move, const DexelMap& map)
@@ -120,13 +120,14 @@ class SweepOverMap {
     // The heights of its surface over the cells from one on, in a row, and whether it comes below one of theirs.
     bool is_below(std::int32_t x, std::int32_t y, const float* heights, Row& z) const {
         static_assert(SweptCutter::at_once == DexelTile::square);
-        Row at;
+        SweptCutter::Row at;
+        SweptCutter::Row over;
         for (std::int32_t k = 0; k < DexelTile::square; ++k) at[static_cast<std::size_t>(k)] = x_of(x + k);
-        swept_.heights(at, y_of(y), z);
+        swept_.heights(at, y_of(y), over);
         int below = 0;
         for (std::size_t k = 0; k < z.size(); ++k) {
-            z[k] += from_.z;
-            below += static_cast<float>(z[k]) < heights[k] ? 1 : 0;
+            z[k] = static_cast<float>(over[k] + from_.z);
+            below += z[k] < heights[k] ? 1 : 0;
         }
         return below > 0;
     }
@@ -171,10 +172,8 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     double length = 0;
     const CellRange cells = sweep.cells();
     const double least = sweep.least();
-    const auto cut_cell = [&](DexelTile& tile, TileCell at, double z) {
+    const auto cut_foam = [&](DexelTile& tile, TileCell at, double z) {
         const std::size_t cell = at.cell;
-        tile.lower_cut(cell, static_cast<float>(z));
-        if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) return;
         columns.know(tile, at, z - known_below);
         const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
         length += removal.length;
@@ -207,8 +206,11 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
                 const std::size_t first = cell_of(x, j);
                 if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;
                 for (std::size_t k = 0; k < z.size(); ++k) {
-                    if (static_cast<float>(z[k]) < tile.cut[first + k]) cut_cell(tile, {tx, ty, first + k}, z[k]);
+                    const std::size_t cell = first + k;
+                    const bool is_foam = tile.high[cell] > z[k] && tile.low[cell] < tile.high[cell];
+                    if (is_foam && z[k] < tile.cut[cell]) cut_foam(tile, {tx, ty, cell}, z[k]);
                 }
+                tile.lower_cuts(first, z);
             }
         });
         tile.measure_most();
@@ -225,40 +227,30 @@ double StockModel::disc_contact(std::size_t orientation, double radius, double a
     DexelColumns& columns = *columns_[orientation];
     const Vec3 a = apply_inverse(map.frame_in_block, from) + Vec3{0, 0, above};
     const Vec3 move = apply_inverse(map.frame_in_block, to) + Vec3{0, 0, above} - a;
-    const SweptCutter disc({ToolShape::flat, radius, 0, 0, 1}, move);
-    const double least = a.z + std::min(0.0, move.z);
+    const SweepOverMap disc({ToolShape::flat, radius, 0, 0, 1}, a, move, map);
+    const double least = disc.least();
     if (least >= map.top) return 0;
     double worst = 0;
-    const CellRange cells = map.range(std::min(a.x, a.x + move.x) - radius, std::max(a.x, a.x + move.x) + radius,
-                                      std::min(a.y, a.y + move.y) - radius, std::max(a.y, a.y + move.y) + radius);
+    const CellRange cells = disc.cells();
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         for (std::int32_t q = 0; q < square; ++q) {
             if (tile.top[static_cast<std::size_t>(q)] <= least + worst) continue;
             const std::int32_t x0 = q % 4 * square;
             const std::int32_t y0 = q / 4 * square;
-            const std::int32_t x_end = std::min(cells.x_end - tx * side, x0 + square);
             const std::int32_t y_end = std::min(cells.y_end - ty * side, y0 + square);
             for (std::int32_t j = std::max(y0, cells.y_begin - ty * side); j < y_end; ++j) {
-                for (std::int32_t i = std::max(x0, cells.x_begin - tx * side); i < x_end; ++i) {
+                const CellRange row = moved_by(disc.reach_of_row(ty * side + j), -tx * side, 0);
+                for (std::int32_t i = std::max(x0, row.x_begin); i < std::min(row.x_end, x0 + square); ++i) {
                     const auto cell = cell_of(i, j);
                     if (!(tile.low[cell] < tile.high[cell]) || tile.high[cell] <= least + worst) continue;
-                    const SweptCutter::Height at =
-                        disc.height(map.centre_x(tx * side + i) - a.x, map.centre_y(ty * side + j) - a.y);
-                    const double underside = a.z + at.z;
+                    const double underside = a.z + disc.height(tx * side + i, ty * side + j).z;
                     if (!(tile.high[cell] - underside > worst)) continue;
                     columns.know(tile, {tx, ty, cell}, underside + worst - known_below);
                     if (tile.low[cell] < tile.high[cell]) worst = std::max(worst, tile.high[cell] - underside);
                 }
             }
             // Nothing may have stood as high as was thought.
-            float top = -std::numeric_limits<float>::infinity();
-            for (std::int32_t j = y0; j < y0 + square; ++j) {
-                for (std::int32_t i = x0; i < x0 + square; ++i) {
-                    const auto cell = cell_of(i, j);
-                    if (tile.low[cell] < tile.high[cell]) top = std::max(top, tile.high[cell]);
-                }
-            }
-            tile.top[static_cast<std::size_t>(q)] = top;
+            tile.top[static_cast<std::size_t>(q)] = tile.highest_in(cell_of(x0, y0));
         }
     });
     return worst;
