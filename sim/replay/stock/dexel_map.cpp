@@ -173,25 +173,38 @@ void DexelMap::remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along)
     }
 }
 
-// Returns where the part of the line that was done ends: in the square, or in the cell.
+// Returns where the part of the line that was done ends: in the square, cell by cell, unless it is passed at once.
 double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
                                   double t, double end) const {
     constexpr auto side = DexelTile::side;
-    const double middle = t + 1e-9 * cell_;
+    const double nudge = 1e-9 * cell_;
+    const double per_cell = 1 / cell_;
     const std::size_t square = DexelTile::square_of_cut(at.i % side, at.j % side);
-    double next = leaves_square(line, at.i, at.j, DexelTile::square, middle, end);
-    if (here.min_of_square[square] >= line.highest(t, next)) return next;
-    if (here.max_of_square[square] < line.lowest(t, next)) {
-        subtract(intervals, t, next);
-        return next;
+    const double left = leaves_square(line, at.i, at.j, DexelTile::square, t + nudge, end);
+    if (here.min_of_square[square] >= line.highest(t, left)) return left;
+    if (here.max_of_square[square] < line.lowest(t, left)) {
+        subtract(intervals, t, left);
+        return left;
     }
-    next = leaves_square(line, at.i, at.j, 1, middle, end);
-    const double cut = here.cut[static_cast<std::size_t>(at.j % side) * side + static_cast<std::size_t>(at.i % side)];
-    const double crossing = line.along.z != 0 ? (cut - line.from.z) * line.per_z : infinite;
-    if (line.along.z > 0) subtract(intervals, std::max(t, crossing), next);
-    if (line.along.z < 0) subtract(intervals, t, std::min(next, crossing));
-    if (line.along.z == 0 && line.from.z > cut) subtract(intervals, t, next);
-    return next;
+    MapCell cell = at;
+    while (true) {
+        const double next = leaves_square(line, cell.i, cell.j, 1, t + nudge, end);
+        const double cut =
+            here.cut[static_cast<std::size_t>(cell.j % side) * side + static_cast<std::size_t>(cell.i % side)];
+        const double crossing = line.along.z != 0 ? (cut - line.from.z) * line.per_z : infinite;
+        if (line.along.z > 0) subtract(intervals, std::max(t, crossing), next);
+        if (line.along.z < 0) subtract(intervals, t, std::min(next, crossing));
+        if (line.along.z == 0 && line.from.z > cut) subtract(intervals, t, next);
+        if (next >= left) return next;
+        t = next;
+        const double i = (line.from.x + (t + nudge) * line.along.x - x_min_) * per_cell;
+        const double j = (line.from.y + (t + nudge) * line.along.y - y_min_) * per_cell;
+        if (!(i >= 0 && j >= 0)) return next;
+        cell = {static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
+        const bool is_in = cell.i / DexelTile::square == at.i / DexelTile::square &&
+                           cell.j / DexelTile::square == at.j / DexelTile::square;
+        if (!is_in) return next;
+    }
 }
 
 bool DexelMap::is_cut_below(double height, const MapRectangle& within) const {

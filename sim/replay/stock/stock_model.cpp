@@ -72,7 +72,15 @@ class SweepOverMap {
 
     // From a place of the map's frame.
     SweepOverMap(const Cutter& cutter, Vec3 from, Vec3 move, const DexelMap& map)
-        : swept_(cutter, move), map_(map), from_(from), move_(move) {}
+        : swept_(cutter, move),
+          map_(map),
+          from_(from),
+          move_(move),
+          length_(std::sqrt(move.x * move.x + move.y * move.y)),
+          touches_before_(swept_.touches_before()) {
+        if (length_ < 1e-9) length_ = 0;
+        if (length_ > 0) unit_x_ = move.x / length_, unit_y_ = move.y / length_;
+    }
     // Below this it does not come.
     double least() const { return from_.z + std::min(0.0, move_.z); }
     CellRange cells() const {
@@ -81,32 +89,23 @@ class SweepOverMap {
                           std::min(from_.y, from_.y + move_.y) - r, std::max(from_.y, from_.y + move_.y) + r);
     }
     // Below this it does not come in the square that begins with a cell: the profile at the square's distance from the
-    // axis, which is at least that of its middle less half a diagonal.
-    double least_in_square(std::int32_t x, std::int32_t y) const {
-        constexpr double half = 0.5 * (DexelTile::square - 1);
-        const Vec3 middle{map_.centre_x(x) + half * map_.cell() - from_.x,
-                          map_.centre_y(y) + half * map_.cell() - from_.y, 0};
-        const double length2 = move_.x * move_.x + move_.y * move_.y;
-        const double along = middle.x * move_.x + middle.y * move_.y;
-        const double share = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0;
-        const double off_x = middle.x - share * move_.x;
-        const double off_y = middle.y - share * move_.y;
-        const double aside = std::sqrt(off_x * off_x + off_y * off_y) - std::numbers::sqrt2 * half * map_.cell();
-        const double radius = swept_.cutter().radius;
-        return aside > 0 ? least() + profile_height(swept_.cutter(), std::min(aside, radius)) : least();
-    }
-    // Whether all of that square is left to the cutter as it stands where the move begins: behind that place nothing of
-    // a level or rising move comes lower, nor a ball of a descending one that touches no farther back than its share.
-    bool is_behind(std::int32_t x, std::int32_t y) const {
-        constexpr double half = 0.5 * (DexelTile::square - 1);
-        const double across = half * map_.cell();
-        const double length = std::sqrt(move_.x * move_.x + move_.y * move_.y);
-        if (length < 1e-9) return false;
-        const double along =
-            ((map_.centre_x(x) + across - from_.x) * move_.x + (map_.centre_y(y) + across - from_.y) * move_.y) /
-            length;
-        const double before = swept_.touches_before();
-        return along + std::numbers::sqrt2 * across < -before;
+    // axis, which is at least that of its middle less half a diagonal. Infinite where it does not come at all; also
+    // where it comes no lower than it stands where the move begins, if that `is_begun`: what is there is removed
+    // already.
+    double least_in_square(std::int32_t x, std::int32_t y, bool is_begun) const {
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        const double half = 0.5 * (DexelTile::square - 1) * map_.cell();
+        const double from_middle = std::numbers::sqrt2 * half;
+        const double to_x = x_of(x) + half;
+        const double to_y = y_of(y) + half;
+        const double along = to_x * unit_x_ + to_y * unit_y_;
+        if (is_begun && length_ > 0 && along + from_middle < -touches_before_) return infinite;
+        const double place = std::clamp(along, 0.0, length_);
+        const double off_x = to_x - place * unit_x_;
+        const double off_y = to_y - place * unit_y_;
+        const double aside = std::sqrt(off_x * off_x + off_y * off_y) - from_middle;
+        if (aside > swept_.cutter().radius) return infinite;
+        return aside > 0 ? least() + profile_height(swept_.cutter(), aside) : least();
     }
     // The cells of a row that it reaches.
     CellRange reach_of_row(std::int32_t y) const {
@@ -138,6 +137,10 @@ class SweepOverMap {
     const DexelMap& map_;
     Vec3 from_;
     Vec3 move_;
+    double length_;  // across the axis
+    double unit_x_ = 0;
+    double unit_y_ = 0;
+    double touches_before_;
 };
 
 // Calls work(x, y) for the first cell of each square of a tile that has one of the cells; all count from the tile's.
@@ -188,21 +191,14 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
         result.depth = std::max(result.depth, depth);
         if (depth > flute) deep.push_back(move.x * sweep.x_of(x) + move.y * sweep.y_of(y));
     };
-    std::array<CellRange, side> rows;
     SweepOverMap::Row z;
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         if (tile.max_cut <= least) return;
         const CellRange own = moved_by(cells, -tx * side, -ty * side);
-        for (std::int32_t j = std::max(0, own.y_begin); j < std::min(own.y_end, side); ++j) {
-            rows[static_cast<std::size_t>(j)] = moved_by(sweep.reach_of_row(ty * side + j), -tx * side, 0);
-        }
         for_squares(own, [&](std::int32_t x, std::int32_t y) {
             const float most = tile.max_of_square[DexelTile::square_of_cut(x, y)];
-            if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y)) return;
-            if (goes_on && sweep.is_behind(tx * side + x, ty * side + y)) return;
+            if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y, goes_on)) return;
             for (std::int32_t j = std::max(y, own.y_begin); j < std::min(y + DexelTile::square, own.y_end); ++j) {
-                const CellRange& row = rows[static_cast<std::size_t>(j)];
-                if (row.x_begin >= x + DexelTile::square || row.x_end <= x) continue;
                 const std::size_t first = cell_of(x, j);
                 if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;
                 for (std::size_t k = 0; k < z.size(); ++k) {
