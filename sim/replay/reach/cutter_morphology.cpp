@@ -181,7 +181,7 @@ class FlatDilation {
         }
         runs_.push_back(std::move(row));
         // A run that goes on into the next row is not asked.
-        for (std::size_t length = 1; 2 * length <= static_cast<std::size_t>(2 * most_ + 1); length *= 2) {
+        for (std::size_t length = 1; 2 * length <= 2 * static_cast<std::size_t>(most_) + 1; length *= 2) {
             std::vector<float> longer = runs_.back();
             for (std::size_t i = 0; i + length < longer.size(); ++i) {
                 longer[i] = std::max(longer[i], runs_.back()[i + length]);

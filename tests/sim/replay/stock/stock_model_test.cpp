@@ -139,6 +139,78 @@ bool removes(const Stroke& stroke, const Pose& frame, Vec3 point) {
     return false;
 }
 
+// Short strokes one after the other, some of which go on where the last one ended.
+std::vector<Stroke> random_strokes(std::size_t count, const std::vector<Pose>& frames) {
+    const std::vector<Cutter> cutters{ball, flat, {ToolShape::bull, 6, 2, 0, 1}};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> in(0, 1);
+    std::vector<Stroke> strokes;
+    Vec3 tip;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t orientation = i / 12 % frames.size();
+        const Cutter& cutter = cutters[i / 6 % cutters.size()];
+        const auto height = [&] { return 12 + 14 * in(random); };
+        if (i % 6 == 0) tip = apply(frames[orientation], {-20 + 40 * in(random), -15 + 30 * in(random), height()});
+        const Vec3 from = apply_inverse(frames[orientation], tip);
+        const double rise = i % 3 == 0 ? 0 : 3 * in(random)-2;
+        const Vec3 to{from.x + 8 * in(random)-4, from.y + 8 * in(random)-4, from.z + rise};
+        strokes.push_back({orientation, cutter, tip, apply(frames[orientation], to)});
+        tip = strokes.back().to;
+    }
+    return strokes;
+}
+
+const std::vector<Vec3> three_axes{{0, 0, 1}, normalized(Vec3{0, 0.7, 1}), normalized(Vec3{0.9, -0.3, 1})};
+
+// A move in the air between two strokes lets the second one begin anew.
+TEST(StockModel, StrokesThatGoOnRemoveWhatTheyRemoveApart) {
+    StockModel together(block, three_axes, 0.5);
+    StockModel apart(block, three_axes, 0.5);
+    std::vector<Pose> frames;
+    for (std::size_t d = 0; d < three_axes.size(); ++d) frames.push_back(together.frame_in_block(d));
+    for (const Stroke& s : random_strokes(300, frames)) {
+        const CutResult one = together.cut(s.orientation, s.cutter, 3, s.from, s.to);
+        const CutResult other = apart.cut(s.orientation, s.cutter, 3, s.from, s.to);
+        apart.cut(s.orientation, s.cutter, 3, {0, 0, 500}, {1, 0, 500});
+        ASSERT_NEAR(one.volume, other.volume, 1e-3);
+        ASSERT_EQ(one.touches, other.touches);
+        ASSERT_NEAR(one.depth, other.depth, 1e-4);
+    }
+    EXPECT_EQ(together.record(), apart.record());
+}
+
+// Sum over the columns about a stroke, each asked of all directions.
+double foam_about(const StockModel& stock_model, const Stroke& s, double cell) {
+    const Pose& frame = stock_model.frame_in_block(s.orientation);
+    const Vec3 from = apply_inverse(frame, s.from);
+    const auto first = [&](double at) { return (std::floor(at / cell) + 0.5) * cell; };
+    double length = 0;
+    for (double x = first(from.x - 16); x < from.x + 16; x += cell) {
+        for (double y = first(from.y - 16); y < from.y + 16; y += cell) {
+            const Vec3 axis = three_axes[s.orientation];
+            for (const Dexel& foam : stock_model.on_line(apply(frame, {x, y, 0}), axis, -200, 200)) {
+                length += foam.high - foam.low;
+            }
+        }
+    }
+    return length * cell * cell;
+}
+
+TEST(StockModel, AStrokeRemovesTheFoamThatAllDirectionsLeftThere) {
+    constexpr double cell = 0.5;
+    StockModel stock_model(block, three_axes, cell);
+    std::vector<Pose> frames;
+    for (std::size_t d = 0; d < three_axes.size(); ++d) frames.push_back(stock_model.frame_in_block(d));
+    double all = 0;
+    for (const Stroke& s : random_strokes(150, frames)) {
+        const double before = foam_about(stock_model, s, cell);
+        const double volume = stock_model.cut(s.orientation, s.cutter, long_flute, s.from, s.to).volume;
+        ASSERT_NEAR(volume, before - foam_about(stock_model, s, cell), 0.01);
+        all += volume;
+    }
+    EXPECT_GT(all, 10'000) << "the strokes meet foam";
+}
+
 TEST(StockModel, TwoDirectionsTogetherLeaveWhatNeitherRemoves) {
     const double tilt = 40 * std::numbers::pi / 180;
     const std::vector<Vec3> tool_axes{{0, 0, 1}, {0, std::sin(tilt), std::cos(tilt)}};
