@@ -1,5 +1,7 @@
-// Cells under the swept tool, row by row; the height at a cell is that of cutter.h. Volumes are sums over cells in a
-// fixed order. O(cells under the tool), and for a line that of all maps (dexel_map.h).
+// Cells under the swept tool, square by square of 8 x 8; the height at a cell is that of cutter.h. Passed over are
+// squares that are lower than the tool comes over them, and those behind a move that goes on where the last one ended.
+// Volumes are sums over cells in a fixed order. O(cells under the tool that are higher), and for a line that of all
+// maps (dexel_map.h).
 
 #include "sim/replay/stock/stock_model.h"
 
