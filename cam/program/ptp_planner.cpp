@@ -20,7 +20,6 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double longest_step = radians(0.5);  // some 20 mm of the tip
 constexpr double coarse_step = radians(2);
-constexpr double longest_table_step = radians(5);
 constexpr double rounding = 1e-9;  // of relative margins
 constexpr std::array<double, 5> retracts{0, 50, 100, 200, 400};
 
@@ -156,12 +155,8 @@ bool PtpPlanner::starts_clear(const OperationEnd& end) {
 }
 
 bool PtpPlanner::turns_clear(double from_angle, double to_angle) {
-    const int steps = steps_of(std::abs(to_angle - from_angle), longest_table_step);
-    for (int i = 0; i <= steps; ++i) {
-        const double angle = from_angle + (to_angle - from_angle) * i / steps;
-        if (!is_clear(standing_at(angle), home_)) return false;
-    }
-    return true;
+    const std::vector<double> angles = judged_table_angles(from_angle, to_angle);
+    return std::all_of(angles.begin(), angles.end(), [&](double angle) { return is_clear(standing_at(angle), home_); });
 }
 
 }  // namespace qchopper
