@@ -1,4 +1,4 @@
-// The tool stands for its way at places a radius apart, as a capsule from its tip up to the retract plane. O(links *
+// The tool stands for its way at places a radius apart, as a capsule from its tip up to the retract plane. O(moves *
 // (1 + length / radius) * bodies).
 
 #include "cam/program/left_out_foam.h"
@@ -27,7 +27,7 @@ std::vector<Capsule> bodies_of_cut(Vec3 from, Vec3 to, Vec3 tool_axis, double ra
     return bodies;
 }
 
-std::size_t slow_links_near(const std::vector<Capsule>& bodies, const CuttingTool& tool, double retract,
+std::size_t slow_moves_near(const std::vector<Capsule>& bodies, const CuttingTool& tool, double retract,
                             ProgramOperation& operation) {
     if (bodies.empty()) return 0;
     std::size_t slowed = 0;
@@ -36,8 +36,7 @@ std::size_t slow_links_near(const std::vector<Capsule>& bodies, const CuttingToo
         for (ProgramMove& move : run.moves) {
             const Vec3 begin = from;
             from = move.tip;
-            const bool is_link = move.kind == MoveKind::link || move.kind == MoveKind::retract;
-            if (!is_link || move.speed <= tool.feed_min_mm_per_s) continue;
+            if (move.speed <= tool.feed_min_mm_per_s) continue;
             const std::vector<Capsule> way =
                 bodies_of_cut(begin, move.tip, operation.tool_axis, 0.5 * tool.diameter, retract);
             const bool is_near = std::any_of(way.begin(), way.end(), [&](const Capsule& own) {

@@ -9,7 +9,7 @@
 // stands in the manifest, on the sheet and in the verdict. What it means for the piece is not judged here: the proof
 // replays the program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
 //
-// Links that come near to foam that now stays go at the least feed (left_out_foam.h). Cost: more foam for finishing may
+// Moves that come near to foam that now stays go at the least feed (left_out_foam.h). Cost: more foam for finishing may
 // make the proof refuse the job. A reserve in the work envelope would refuse placements that are good but for a corner;
 // raising the CL surface where the arm does not hold it would need the arm, and an answer for every cell, while the
 // toolpath is made. Test: tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoConfigurationTakes.
@@ -305,7 +305,7 @@ PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setu
         const Operation& operation = toolpath.operations[i];
         for (PlannedOperation& planned : by_operation[i]) {
             const std::size_t slowed =
-                slow_links_near(standing, cell.machine->tools[operation.tool], operation.retract, planned.operation);
+                slow_moves_near(standing, cell.machine->tools[operation.tool], operation.retract, planned.operation);
             planned.operation.lowered_moves += slowed;
             if (slowed > 0) {
                 for (ProgramRun& run : planned.operation.runs) limit_speed_changes(run, max_lines(cell));

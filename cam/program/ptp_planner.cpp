@@ -1,5 +1,6 @@
 // Ways are tried from the shortest on: straight in the joints, then by a pose over home that already faces the goal,
-// with the tool retracted farther and farther. Some 5 microseconds a sample.
+// with the tool retracted farther and farther. Where the block is higher than the tool at home the same ways are tried
+// from above home: a turn of axis 1 alone would take the tool into a block beside it. Some 5 microseconds a sample.
 
 #include "cam/program/ptp_planner.h"
 
@@ -19,7 +20,6 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double longest_step = radians(0.5);  // some 20 mm of the tip
 constexpr double coarse_step = radians(2);
-constexpr double longest_table_step = radians(5);
 constexpr double rounding = 1e-9;  // of relative margins
 constexpr std::array<double, 5> retracts{0, 50, 100, 200, 400};
 
@@ -105,21 +105,46 @@ std::optional<Joints> PtpPlanner::retracted(const OperationEnd& end, double retr
     return joints;
 }
 
+std::optional<Joints> PtpPlanner::over_home(const StandingBlock& block) const {
+    const ToolArm arm = tool_arm(*cell_.machine->robot, cell_.machine->spindle, slow_tool_);
+    Pose flange = forward(arm.geometry, home_);
+    const Vec3 tip = apply(arm.base_in_cell * flange * arm.tip_in_flange, Vec3{});
+    const double top = apply(block.setup_in_cell, setup_.block_box().max).z;
+    const double rise = top + cell_.clearance + rule_of(PoseCheck::tool_to_block).needed - tip.z;
+    if (rise <= 0) return std::nullopt;
+    flange.shift = flange.shift + rotate(inverse(arm.base_in_cell), {0, 0, rise});
+    const ArmConfiguration own = configuration_of(arm.geometry, home_);
+    for (const ArmAnswer& answer : inverse_within(arm.geometry, arm.ranges, arm.margin, flange, home_)) {
+        if (answer.configuration == own) return answer.joints;
+    }
+    return std::nullopt;
+}
+
+bool PtpPlanner::is_clear(const StandingBlock& block, const std::vector<Joints>& targets) {
+    Joints from = home_;
+    return std::all_of(targets.begin(), targets.end(), [&](const Joints& to) {
+        const bool is_free_leg = is_clear(block, from, to, longest_step);
+        from = to;
+        return is_free_leg;
+    });
+}
+
 std::optional<PtpPath> PtpPlanner::from_home(const OperationEnd& end) {
     const StandingBlock block = standing_at(end.operation->table_angle);
+    const std::optional<Joints> over = over_home(block);
     for (const double retract : retracts) {
         double speed = 0;
         const std::optional<Joints> goal = retracted(end, retract, speed);
         if (!goal) continue;
         for (std::vector<Joints>& targets : middles(home_, *goal)) {
             targets.push_back(*goal);
-            Joints from = home_;
-            const bool is_free = std::all_of(targets.begin(), targets.end(), [&](const Joints& to) {
-                const bool is_free_leg = is_clear(block, from, to, longest_step);
-                from = to;
-                return is_free_leg;
-            });
-            if (is_free) return PtpPath{retract, speed, targets};
+            if (is_clear(block, targets)) return PtpPath{retract, speed, targets};
+        }
+        if (!over) continue;
+        for (std::vector<Joints>& targets : middles(*over, *goal)) {
+            targets.insert(targets.begin(), *over);
+            targets.push_back(*goal);
+            if (is_clear(block, targets)) return PtpPath{retract, speed, targets};
         }
     }
     return std::nullopt;
@@ -130,12 +155,8 @@ bool PtpPlanner::starts_clear(const OperationEnd& end) {
 }
 
 bool PtpPlanner::turns_clear(double from_angle, double to_angle) {
-    const int steps = steps_of(std::abs(to_angle - from_angle), longest_table_step);
-    for (int i = 0; i <= steps; ++i) {
-        const double angle = from_angle + (to_angle - from_angle) * i / steps;
-        if (!is_clear(standing_at(angle), home_)) return false;
-    }
-    return true;
+    const std::vector<double> angles = judged_table_angles(from_angle, to_angle);
+    return std::all_of(angles.begin(), angles.end(), [&](double angle) { return is_clear(standing_at(angle), home_); });
 }
 
 }  // namespace qchopper

@@ -32,7 +32,8 @@ class PtpPlanner {
     PtpPlanner& operator=(const PtpPlanner&) = delete;
 
     // Between home and an end: the retract, and the targets on the way from home, the retracted pose last and home left
-    // out. Nothing if none is clear.
+    // out. Where the block is higher than the tool at home, and no way is clear else, the first target is above home.
+    // Nothing if none is clear.
     std::optional<PtpPath> from_home(const OperationEnd& end);
 
     // Whether the joint move from home to an end is clear, with poses every 2 degrees.
@@ -48,6 +49,11 @@ class PtpPlanner {
     StandingBlock standing_at(double table_angle) const;
     bool is_clear(const StandingBlock& block, const Joints& from, const Joints& to, double step);
     bool is_clear(const StandingBlock& block, const Joints& joints);
+    // Of joint moves from home to one target after the other.
+    bool is_clear(const StandingBlock& block, const std::vector<Joints>& targets);
+    // Straight above home, the tool over the whole block; nothing if it is that at home, or the arm does not come
+    // there.
+    std::optional<Joints> over_home(const StandingBlock& block) const;
     // The joints at the retracted pose, come to on a straight line, and the speed of that.
     std::optional<Joints> retracted(const OperationEnd& end, double retract, double& speed);
 

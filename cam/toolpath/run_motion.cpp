@@ -1,4 +1,6 @@
-// One pass over the moves each; the mean of neighbouring moves by two ends that go on together.
+// One pass over the moves each, or for feeds two: with what each move removes by itself, and with that of the rounded
+// corner at its end, as the share of the next move's length. The feed of neighbours by bisection.
+// O(moves * moves within a diameter).
 
 #include "cam/toolpath/run_motion.h"
 
@@ -29,7 +31,7 @@ bool is_cutting(const PathMove& move) {
 // The moves of a run: lengths, volumes that they remove, feeds with which they are driven, and least feeds.
 struct DrivenMoves {
     std::vector<double> length;
-    std::span<const double> volume;
+    std::vector<double> volume;
     std::vector<double> feed;
     std::vector<double> least;
 
@@ -60,6 +62,24 @@ struct DrivenMoves {
             (is_slow_enough(middle) ? low : high) = middle;
         }
         for (std::size_t i = first; i <= last; ++i) feed[i] = feed_at(i, low);
+    }
+
+    void slow_all(double width, double rate) {
+        for (std::size_t i = 0; i < length.size(); ++i) slow(i, width, rate);
+    }
+
+    // Counts what is removed in rounded corners for the moves before them, by the share of the next move's length.
+    void count_corners_before(const std::vector<PathMove>& moves) {
+        double taken = 0;  // of the own volume, by the corner before
+        for (std::size_t i = 0; i < volume.size(); ++i) {
+            double next = 0;
+            if (i + 1 < volume.size() && length[i + 1] > 0) {
+                const double corner = std::min({moves[i].rounding, 0.5 * length[i], 0.5 * length[i + 1]});
+                next = corner / length[i + 1] * volume[i + 1];
+            }
+            volume[i] += next - taken;
+            taken = next;
+        }
     }
 };
 
@@ -92,7 +112,7 @@ void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell,
         if (!is_cutting(move)) return operation.link_feed;
         return std::min(feed_of(operation, move.kind), (move.kind == MoveKind::cut ? 1 : 0.5) * tool.feed_min_mm_per_s);
     };
-    DrivenMoves moves{{}, removed_mm3, {}, {}};
+    DrivenMoves moves{{}, {removed_mm3.begin(), removed_mm3.end()}, {}, {}};
     Vec3 at = run.start;
     for (const PathMove& move : run.moves) {
         moves.length.push_back(norm(move.tip - at));
@@ -101,7 +121,9 @@ void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell,
         at = move.tip;
     }
     const double rate = used_rate * (1 - std::min(cell / tool.diameter, 1.0)) * tool.removal_mm3_per_s;
-    for (std::size_t i = 0; i < run.moves.size(); ++i) moves.slow(i, tool.diameter, rate);
+    moves.slow_all(tool.diameter, rate);
+    moves.count_corners_before(run.moves);
+    moves.slow_all(tool.diameter, rate);
     std::array<double, 2> current{operation.feed, operation.approach_feed};
     for (std::size_t i = 0; i < run.moves.size(); ++i) {
         PathMove& move = run.moves[i];

@@ -27,7 +27,8 @@ Vec3 on_parabola(Vec3 from, Vec3 at, Vec3 to, double rounding, double t);
 
 // Sets PathMove::feed so that cuts and approaches remove foam no faster than used_rate of the tool's rate, less as much
 // as a cell of the map of the foam is of the tool's diameter, on any moves that are together as long as the tool is
-// wide, but no slower than its window allows. `removed_mm3`: of each move.
+// wide, but no slower than its window allows. `removed_mm3`: of each move. That holds too where a move removes what is
+// in the rounded corner at its end, as the proof has it, and the next one only the rest: roundings are set before.
 // Feeds are those of the kind times a power of a ratio and change seldom, since each change is a line of the program.
 // Of moves that remove too much together the fastest are slowed, to one feed. O(moves * moves within a diameter).
 void limit_feeds(PathRun& run, std::span<const double> removed_mm3, double cell, const CuttingTool& tool,

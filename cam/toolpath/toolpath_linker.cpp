@@ -207,8 +207,8 @@ void ToolpathLinker::begin_run(Vec3 at) {
 void ToolpathLinker::end_run() {
     if (run_.moves.empty()) return;
     move(raised(at_, space_->retract), MoveKind::retract);
-    limit_feeds(run_, removed_mm3_, space_->stock.cell, *tool_, *operation_);
     settle_rounding(run_, operation_->rounding);
+    limit_feeds(run_, removed_mm3_, space_->stock.cell, *tool_, *operation_);
     runs_.push_back(std::move(run_));
     run_ = {};
 }

@@ -1,5 +1,7 @@
 // Branches, turns and angles are tried one after another, what was best at the last place first; each is left as soon
-// as it is known to be worse than the best so far. O(regions * configurations * turns * angles * poses) at most.
+// as it is known to be worse than the best so far. Home while a rotary table turns is judged only of blocks that come
+// so near to it, turned as the table can, that it may be the worst. O(regions * configurations * turns * angles *
+// poses) at most.
 
 #include "cam/setup/placement/place_score.h"
 
@@ -9,6 +11,8 @@
 #include <numeric>
 #include <utility>
 
+#include "cam/cell/machine_bodies.h"
+#include "cam/cell/shape_distance.h"
 #include "cam/setup/holder_clearance.h"
 
 namespace qchopper {
@@ -45,6 +49,19 @@ PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector
         const auto home = std::find(configurations_.begin(), configurations_.end(), home_configuration);
         std::rotate(configurations_.begin(), home, home + 1);
     }
+    if (has_rotary()) {
+        const Pose cell_in_table = inverse(table_in_cell(cell, 0));
+        const auto add = [&](Vec3 from, Vec3 to, double radius) {
+            home_bodies_.push_back({apply(cell_in_table, from), apply(cell_in_table, to), radius});
+        };
+        for (const CuttingTool& tool : cell.machine->tools) {
+            const MovingBodies home = bodies_at(cell, tool, cell.machine->start.joints, cell.machine->start.tip);
+            for (const AxisBody& body : home.on_axis) add(body.shape.from, body.shape.to, body.shape.radius);
+            for (const LinkCapsule& link : home.links) {
+                if (link.link > 0) add(link.shape.from, link.shape.to, link.shape.radius);
+            }
+        }
+    }
     order_.resize(orientations.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     for (std::size_t d = 0; d < orientations.size(); ++d) hints_[d].resize(orientations[d].regions.size());
@@ -77,6 +94,42 @@ double PlaceScorer::home_score(const BlockPlacement& placement) {
     const StandingBlock block = standing(placement, 0);
     for (PoseJudge& judge : home_judges_) judge.judge_home(block, tally);
     return tally.score();
+}
+
+double PlaceScorer::least_home_score(const BlockPlacement& placement) const {
+    const Pose on_table = setup_in_table(placement, setup_.spoil);
+    const Box block = setup_.block_box();
+    const double top = apply(on_table, block.max).z;
+    double rim = 0;
+    for (const double x : {block.min.x, block.max.x}) {
+        for (const double y : {block.min.y, block.max.y}) {
+            const Vec3 corner = apply(on_table, Vec3{x, y, 0});
+            rim = std::max(rim, std::hypot(corner.x, corner.y));
+        }
+    }
+    const CheckRule& rule = rule_of(PoseCheck::tool_to_block);  // that of arm_to_block has the same needed and scale
+    double least = std::numeric_limits<double>::infinity();
+    for (const Capsule& body : home_bodies_) {
+        const double above = std::min(body.from.z, body.to.z) - body.radius - top;
+        const Capsule flat{{body.from.x, body.from.y, 0}, {body.to.x, body.to.y, 0}, body.radius};
+        const double beside = distance(flat, Capsule{{}, {}, rim});
+        least = std::min(least, std::max(above, beside));
+    }
+    return (least - rule.needed) / rule.scale;
+}
+
+double PlaceScorer::turning_home_score(const BlockPlacement& placement, std::size_t orientation,
+                                       const ScoreOptions& options) {
+    if (least_home_score(placement) >= options.enough) return options.enough;
+    MarginTally tally(false);
+    const Pose on_table = setup_in_table(placement, setup_.spoil);
+    const double to = std::remainder(placement.table_angle(orientation), 2 * std::numbers::pi);
+    for (const double angle : judged_table_angles(0, to)) {
+        const StandingBlock block = judge_.standing(table_in_cell(cell_, angle) * on_table, setup_.block_box());
+        for (PoseJudge& judge : home_judges_) judge.judge_home(block, tally);
+        if (tally.score() < options.bound) break;
+    }
+    return std::min(options.enough, tally.score());
 }
 
 double PlaceScorer::direction_score(std::size_t d, const ScoreOptions& options, PlaceScore& place) {
@@ -135,7 +188,9 @@ double PlaceScorer::score_at(std::size_t d, ScoreOptions options, const BlockPla
                          region_score({block, orientation.tool_axis, region, count}, options, hints_[d][r], posture));
         postures.push_back(posture);
     }
-    return score;
+    if (!has_rotary() || score < options.bound) return score;
+    options.enough = score;
+    return turning_home_score(placement, d, options);
 }
 
 double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, ArmPosture& posture) {

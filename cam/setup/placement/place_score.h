@@ -83,12 +83,17 @@ class PlaceScorer {
     // Of one configuration and turn; any number below `bound` if it is below.
     double candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, ArmPosture& posture);
     double home_score(const BlockPlacement& placement);
+    // Of home while the table turns from 0 to the angle of a direction; `enough` of the options if it is no less.
+    double turning_home_score(const BlockPlacement& placement, std::size_t orientation, const ScoreOptions& options);
+    // No home score of a place is less, whatever the angle of the table.
+    double least_home_score(const BlockPlacement& placement) const;
 
     const Setup& setup_;
     const Cell& cell_;
     const std::vector<OrientationPoses>& orientations_;
     PoseJudge judge_;
     std::vector<PoseJudge> home_judges_;
+    std::vector<Capsule> home_bodies_;              // all that moves, with any tool, in the rotary table's frame
     std::vector<ArmConfiguration> configurations_;  // that of home first
     std::vector<std::vector<RegionHint>> hints_;    // by direction and region
     PoseRegion alone_;                              // one pose

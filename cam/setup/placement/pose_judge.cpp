@@ -80,6 +80,16 @@ struct PoseJudge::Walk {
     Pose setup_in_base;
 };
 
+std::vector<double> judged_table_angles(double from, double to) {
+    constexpr double step = 5 / degrees;
+    std::vector<double> angles{from};
+    const double low = std::min(from, to);
+    const double high = std::max(from, to);
+    for (double k = std::floor(low / step) + 1; k * step < high; ++k) angles.push_back(k * step);
+    angles.push_back(to);
+    return angles;
+}
+
 PoseJudge::PoseJudge(const Cell& cell, const CuttingTool& tool)
     : cell_(cell), machine_(*cell.machine), feed_(tool.feed_max_mm_per_s), standing_(standing_bodies(cell)) {
     axis_bodies_ = bodies_on_axis(tool, machine_.spindle);

@@ -33,6 +33,10 @@ struct ArmPosture {
     bool turns_freely = false;
 };
 
+// Where a turn of a rotary table from one angle to another is judged: at both, and at the multiples of 5 degrees
+// between them. So a turn on the way from 0 is judged where that from 0 is, but for its ends.
+std::vector<double> judged_table_angles(double from, double to);
+
 class PoseJudge {
  public:
     // Precondition: the cell has a machine; it outlives this object, as the tool does.

@@ -150,17 +150,27 @@ class ReachabilityReporter {
         return false;
     }
 
+    // Where the table stands at home, the first direction first, and where it comes to from 0 on the way to any.
+    std::vector<double> home_angles() const {
+        const BlockPlacement& placement = place_.placement;
+        std::vector<double> angles{placement.table_angle(0)};
+        for (std::size_t d = 0; d < orientations_.size() && scorer_.has_rotary(); ++d) {
+            const double to = std::remainder(placement.table_angle(d), 2 * std::numbers::pi);
+            const std::vector<double> own = judged_table_angles(0, to);
+            angles.insert(angles.end(), own.begin(), own.end());
+        }
+        return angles;
+    }
+
     void add_home(MachineReachability& reachability) {
-        const StandingBlock block = scorer_.standing(place_.placement, 0);
+        const Pose on_table = setup_in_table(place_.placement, setup_.spoil);
+        const std::vector<double> angles = home_angles();
         const CellMachine& machine = *cell_.machine;
         const CuttingTool& own_tool = longest_tool(machine.tools);
         for (std::size_t t = 0; t < machine.tools.size(); ++t) {
             PoseJudge& judge = scorer_.home_judges()[t];
-            MarginTally tally;
-            judge.judge_home(block, tally);
             ReachabilityPose pose;
             pose.kind = &machine.tools[t] == &own_tool ? PoseKind::home : PoseKind::tool_change;
-            pose.table_angle = place_.placement.table_angle(0);
             if (machine.robot) {
                 const ToolArm arm = tool_arm(*machine.robot, machine.spindle, machine.tools[t]);
                 const Pose tip = arm.base_in_cell * (forward(arm.geometry, machine.start.joints) * arm.tip_in_flange);
@@ -172,8 +182,14 @@ class ReachabilityReporter {
                 pose.tool_axis_in_cell = {0, 0, 1};
             }
             pose.tip = pose.tip_in_cell;
-            keep_all(
-                tally, [&](std::size_t) { return pose; }, reachability);
+            for (const double angle : angles) {
+                MarginTally tally;
+                judge.judge_home(scorer_.judge().standing(table_in_cell(cell_, angle) * on_table, setup_.block_box()),
+                                 tally);
+                pose.table_angle = angle;
+                keep_all(
+                    tally, [&](std::size_t) { return pose; }, reachability);
+            }
             ++reachability.poses;
         }
     }

@@ -1,4 +1,4 @@
-// What stands for left-out cuts holds all that they would have removed, and slows the links that come near, no others.
+// What stands for left-out cuts holds all that they would have removed, and slows the moves that come near, no others.
 
 #include "cam/program/left_out_foam.h"
 
@@ -36,7 +36,7 @@ TEST(LeftOutFoam, BodiesHoldAllThatTheCutWouldHaveRemoved) {
     }
 }
 
-TEST(LeftOutFoam, SlowsLinksThatMayMeetItAndNoOthers) {
+TEST(LeftOutFoam, SlowsMovesThatMayMeetItAndNoOthers) {
     CuttingTool tool;
     tool.diameter = 20;
     tool.feed_min_mm_per_s = 20;
@@ -60,17 +60,17 @@ TEST(LeftOutFoam, SlowsLinksThatMayMeetItAndNoOthers) {
     to({0, 0, 20}, MoveKind::cut);  // into it, as a cut
     to({0, 0, retract}, MoveKind::retract);
     operation.runs.push_back(run);
-    EXPECT_EQ(slow_links_near(bodies, tool, retract, operation), 2U);
+    EXPECT_EQ(slow_moves_near(bodies, tool, retract, operation), 3U);
     const std::vector<ProgramMove>& moves = operation.runs[0].moves;
     EXPECT_EQ(moves[0].speed, 300);
     EXPECT_EQ(moves[1].speed, 20);
     EXPECT_EQ(moves[2].speed, 300);
     EXPECT_EQ(moves[3].speed, 300);
     EXPECT_EQ(moves[4].speed, 100);
-    EXPECT_EQ(moves[5].speed, 100);
+    EXPECT_EQ(moves[5].speed, 20) << "a cut removes what stays";
     EXPECT_EQ(moves[6].speed, 20) << "out of it";
     ProgramOperation other = operation;
-    EXPECT_EQ(slow_links_near({}, tool, retract, other), 0U);
+    EXPECT_EQ(slow_moves_near({}, tool, retract, other), 0U);
     EXPECT_EQ(other, operation);
 }
 

@@ -190,6 +190,21 @@ TEST(MakeProgram, HoldsEveryPoseOfARotaryTable) {
     }
 }
 
+// The tool hangs beside the block at home, lower than its top: a turn of axis 1 alone would take it into the foam.
+TEST(MakeProgram, GoesOverABlockThatIsHigherThanTheToolAtHome) {
+    Job job = job_in(ready_cell("kr120-r2500-pro-rotary.toml"), {548, 213, 746}, 53, 114);
+    job.setup.placement = {0, 300, 0, {120 * degree, 22 * degree}};
+    job.reachability = {};
+    const Program program = program_of(job);
+    expect_held(job, program);
+    const ProgramOperation& last = program.operations.back();
+    ASSERT_EQ(last.orientation, 1U);
+    ASSERT_GE(last.entry.targets.size(), 2U);
+    EXPECT_NEAR(last.entry.targets.front()[0], program.home[0], 1e-6) << "straight up";
+    ASSERT_GE(last.exit.targets.size(), 2U);
+    EXPECT_EQ(last.exit.targets[last.exit.targets.size() - 2], last.entry.targets.front()) << "and down again";
+}
+
 TEST(MakeProgram, HoldsWithASkewTool) {
     Cell cell = ready_cell("kr60-ha.toml");
     cell.machine->spindle.spindle_in_flange = {tip_frame({}, normalized({0.3, -0.1, -1}), 0.4).row, {30, -20, 300}};

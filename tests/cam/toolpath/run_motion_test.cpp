@@ -119,6 +119,26 @@ TEST(RunMotion, ShortLinesOfOneSectionHaveOneFeed) {
     }
 }
 
+// Lines of a piece of the bunny. The proof drives a rounded corner with the move before it: a half of the last move.
+TEST(RunMotion, FoamInARoundedCornerCountsForBothMoves) {
+    PathRun run{{0, 0, 0}, {{{11, 0, 0}}, {{19, 0, 0}}, {{27, 0, 0}}}};
+    run.moves[0].rounding = 0.8;
+    run.moves[1].rounding = 5;
+    const std::vector<double> removed{2, 144, 212};
+    CuttingTool tool = tool_of(6, 1500);
+    tool.feed_min_mm_per_s = 10;
+    Operation operation;
+    operation.feed = 60;
+    limit_feeds(run, removed, 0.5, tool, operation);
+    const double rate = used_rate * (1 - 0.5 / 6) * 1500;
+    const double with_corners = (1 - 0.8 / 8) * removed[1] + 0.5 * removed[2];
+    EXPECT_LE(with_corners * run.moves[1].feed / 8, rate * (1 + 1e-9));
+    EXPECT_LE(removed[2] * run.moves[2].feed / 8, rate * (1 + 1e-9));
+    EXPECT_GT(with_corners * run.moves[1].feed / 8, 0.8 * rate);
+    EXPECT_GT(removed[2] * run.moves[2].feed / 8, 0.8 * rate);
+    EXPECT_EQ(run.moves[0].feed, 0);
+}
+
 TEST(RunMotion, ALightCutKeepsTheFullFeedAndAHeavyOneNoLessThanTheLeast) {
     PathRun run{{0, 0, 0}, {{{50, 0, 0}}, {{100, 0, 0}}, {{150, 0, 0}}}};
     CuttingTool tool = tool_of(20, 24000);

@@ -90,6 +90,24 @@ TEST(PlaceBlock, HoldsASmallBoxInEveryReadyCell) {
     }
 }
 
+// A program begins with the table at 0, and turns it while the arm is at home: there the tool hangs lower than this
+// block is high.
+TEST(PlaceBlock, RefusesABlockThatComesToTheToolAtHomeWhileTheTableTurns) {
+    const Cell cell = ready_cell("kr120-r2500-pro-rotary.toml");
+    BoxSetup s = box_setup(cell, {538, 203, 733}, {up});
+    const auto refused_at = [&](double y, double angle) {
+        s.setup.placement = {0, y, 0, {angle * degree}};
+        const std::vector<OrientationPoses> poses = poses_in_cell(s.setup, cell, up, {{1450, 0, 1150}});
+        const MachineReachability reachability = at_placement(s.setup, poses, cell);
+        EXPECT_EQ(reachability.holds(), holds_at_placement(s.setup, poses, cell)) << y << " " << angle;
+        return refusing(reachability);
+    };
+    EXPECT_EQ(refused_at(300, 120), Keys{});
+    EXPECT_EQ(refused_at(-100, 30), Keys{"tool_to_block"}) << "at 0";
+    EXPECT_EQ(refused_at(180, 170), Keys{"tool_to_block"}) << "on the way";
+    EXPECT_EQ(refused_at(180, -120), Keys{});
+}
+
 TEST(PlaceBlock, ChecksNoArmInACellOfVersion1) {
     const Cell cell = ready_cell("foam-1.toml");
     BoxSetup s;
