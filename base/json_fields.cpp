@@ -8,6 +8,9 @@
 namespace qchopper::json_values {
 namespace {
 
+constexpr const char* rows_key = "rows";  // of a pose
+constexpr const char* shift_key = "shift";
+
 constexpr int max_depth = 16;  // written() recurses once per level
 
 Json parsed(std::string_view text) {
@@ -64,8 +67,8 @@ void put(Json& at, Vec3 value) {
 }
 
 void put(Json& at, const Pose& value) {
-    put(at["rows"], value.row);
-    put(at["shift"], value.shift);
+    put(at[rows_key], value.row);
+    put(at[shift_key], value.shift);
 }
 
 void put(Json& at, const Sha256& value) {
@@ -113,10 +116,10 @@ void take(const Json& json, const std::string& key, Vec3& value) {
 }
 
 void take(const Json& json, const std::string& key, Pose& value) {
-    const Json& rows = member(json, "rows");
+    const Json& rows = member(json, rows_key);
     if (!rows.is_array() || rows.size() != 3) throw wrong("rows", "is not three rows");
-    for (std::size_t i = 0; i < 3; ++i) take(rows[i], "rows", value.row[i]);
-    take(member(json, "shift"), "shift", value.shift);
+    for (std::size_t i = 0; i < 3; ++i) take(rows[i], rows_key, value.row[i]);
+    take(member(json, shift_key), shift_key, value.shift);
     // A mirror image would pass all other checks and be milled.
     const double turn = dot(value.row[0], cross(value.row[1], value.row[2]));
     if (!(std::abs(turn - 1) < 1e-6)) throw wrong(key, "is not a rotation");

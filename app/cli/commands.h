@@ -30,6 +30,7 @@ int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);
 int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
+int run(const SchemaArguments& arguments, Terminal& terminal);
 
 // For dry-run and dispatch: shows table or document and returns the exit code.
 int show(const DispatchReport& report, const std::string& schema, Terminal& terminal);

@@ -5,9 +5,11 @@
 #include <cassert>
 
 #include "app/jobs/time_fields.h"
+#include "app/jobs/verdict_schema.h"
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
 
 namespace qchopper {
 
@@ -61,6 +63,10 @@ void fields(V& v, T& verdict) {
 std::string to_json(const JobVerdict& verdict) {
     assert(verdict.findings.size() <= max_listed_findings);
     return to_document(verdict);
+}
+
+std::string verdict_schema() {
+    return schema_of_document<JobVerdict>("verdict of qchopper on a job");
 }
 
 JobVerdict job_verdict_from_json(std::string_view text, const std::string& source) {

@@ -73,13 +73,15 @@ struct JobOrders {
     std::span<const PieceJoint> joints;
     Sha256 cell_sha256;  // of the cell file
     const std::string& program_version;
+    std::map<std::string, BlockPlacement> places;  // recorded_places()
 };
 
 JobOrders orders_of(const fs::path& folder, const Project& project, const Segmentation& segmentation, const Cell& cell,
                     std::span<const PieceJoint> joints, const std::string& program_version) {
-    return {folder,         project, segmentation,
-            cell,           joints,  sha256(read_file(folder / "cell.toml", settings_limit)),
-            program_version};
+    return {folder,          project,
+            segmentation,    cell,
+            joints,          sha256(read_file(folder / "cell.toml", settings_limit)),
+            program_version, recorded_places(project)};
 }
 
 JobInput job_input(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup) {
@@ -157,16 +159,6 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
     return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, fine);
 }
 
-// Of WrittenJob: the programs', or that of an earlier run which the setup has.
-std::optional<BlockPlacement> place_of(const Project& project, const Piece& piece, const PiecePrograms& programs,
-                                       const PlacedSetup& piece_setup) {
-    if (programs.place) return programs.place;
-    const std::map<std::string, BlockPlacement> recorded = recorded_places(project);
-    const auto found = recorded.find(piece.name);
-    if (found == recorded.end() || found->second != piece_setup.setup().placement) return std::nullopt;
-    return found->second;
-}
-
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
 MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
@@ -200,8 +192,12 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
         if (!made.written.empty()) input.program->program.part.before = made.written.back().sha256;
         write_one(input, &part.proof, orders, made);
     }
-    const std::optional<BlockPlacement> place = place_of(orders.project, piece, programs, piece_setup);
-    for (WrittenJob& job : made.written) job.place = place;
+    // Its programs need the block there, or those of an earlier run did and the setup has that place.
+    const BlockPlacement& placement = made.report.piece_setup.setup().placement;
+    const auto recorded = orders.places.find(piece.name);
+    if (programs.place || (recorded != orders.places.end() && recorded->second == placement)) {
+        for (WrittenJob& job : made.written) job.place = placement;
+    }
     return made;
 }
 
@@ -216,7 +212,7 @@ void record_jobs(Project& project, const Segmentation& segmentation, std::size_t
     project.jobs.insert(later, written.begin(), written.end());
 }
 
-// Jobs are written several at a time: their number, and the steps of the first one that is not done.
+// Jobs of pieces are written several at a time: of how many pieces, and the steps of the first one that is not done.
 class JobProgress {
  public:
     JobProgress(const Context& context, std::size_t count) : context_(context), is_done_(count, false) {
@@ -231,8 +227,8 @@ class JobProgress {
             const std::lock_guard lock(mutex_);
             const std::size_t first = std::find(is_done_.begin(), is_done_.end(), false) - is_done_.begin();
             if (index != first) return;
-            context_.progress(step.what + " for piece " + piece + ", job " + std::to_string(done_ + 1) + " of " +
-                                  std::to_string(is_done_.size()),
+            context_.progress(step.what + " for piece " + piece + " (" + std::to_string(done_ + 1) + " of " +
+                                  std::to_string(is_done_.size()) + ")",
                               step.done, step.total);
         };
         return own;

@@ -75,6 +75,15 @@ std::vector<MachineTime> times_of(const PreparedProject& prepared) {
     return merged(rows);
 }
 
+// "2 jobs", or "3 jobs of 2 pieces" where the program of a piece has several parts.
+std::string job_count(const PreparedProject& prepared) {
+    const std::vector<WrittenJob>& jobs = prepared.project.jobs;
+    const auto pieces = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
+                                      [](const PieceReport& p) { return !p.job.empty(); });
+    const std::string of_pieces = " of " + counted(static_cast<std::size_t>(pieces), "piece");
+    return counted(std::size(jobs), "job") + (std::ssize(jobs) == pieces ? "" : of_pieces);
+}
+
 // "sawn": the saw alone makes it, and it has no job; "none": it has none because it does not fit.
 const char* state_word(const PieceReport& piece, double max_unreachable) {
     if (piece.is_only_sawn) return "sawn";
@@ -168,8 +177,6 @@ std::vector<std::string> table(const PreparedProject& prepared) {
         for (const std::string& line : review_lines(*prepared.project.review)) lines.push_back(line);
     }
     if (const std::string line = time_line(times_of(prepared)); !line.empty()) lines.push_back(line);
-    const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
-                                    [](const PieceReport& p) { return !p.job.empty(); });
     const auto only_sawn = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                          [](const PieceReport& p) { return p.is_only_sawn; });
     const std::string folder = prepared.folder.string();
@@ -178,9 +185,9 @@ std::vector<std::string> table(const PreparedProject& prepared) {
                         " made by the saw alone, without a job: see " + folder + "/saw-list.html.");
     }
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
-                    ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
-                    folder + "/pictures.");
-    lines.push_back(std::string("Next: qchopper ") + (jobs > 0 ? "dry-run " : "setup ") + shell_word(prepared.folder));
+                    ", " + job_count(prepared) + " in " + folder + "/jobs, pictures in " + folder + "/pictures.");
+    lines.push_back(std::string("Next: qchopper ") + (prepared.project.jobs.empty() ? "setup " : "dry-run ") +
+                    shell_word(prepared.folder));
     return lines;
 }
 

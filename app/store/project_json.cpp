@@ -6,6 +6,7 @@
 
 #include "app/store/value_fields.h"
 #include "base/error.h"
+#include "base/json_schema.h"
 #include "cam/job/setup_fields.h"
 
 namespace qchopper {
@@ -138,6 +139,11 @@ static void put(Json& at, const Discards& discards) {
     discards.size() == 1 ? put(at, discards.front()) : put<Discard>(at, discards);
 }
 
+static void put_schema(Json& at, const Discards& like) {
+    put_schema(added_choice(at), Discard{});
+    put_schema<Discard>(added_choice(at), like);
+}
+
 static void take(const Json& json, const std::string& key, Discards& discards) {
     is_list(json) ? take<Discard>(json, key, discards) : take(json, key, discards.emplace_back());
 }
@@ -166,6 +172,10 @@ void fields(V& v, T& decision) {
 
 static void put(Json& at, const Decision& decision) {
     put(at, to_fields(decision));
+}
+
+static void put_schema(Json& at, const Decision& decision) {
+    put_schema(at, to_fields(decision));
 }
 
 static void take(const Json& json, const std::string& key, Decision& decision) {
@@ -297,6 +307,10 @@ void derive(Project& project) {
 
 std::string to_json(const Project& project) {
     return to_document(project, 1);
+}
+
+std::string project_schema() {
+    return schema_of_document<Project>("project.json of qchopper");
 }
 
 Project project_from_json(std::string_view text, const std::string& name) {

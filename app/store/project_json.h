@@ -18,4 +18,7 @@ std::string to_json(const Project& project);
 // value, and values that contradict each other.
 Project project_from_json(std::string_view text, const std::string& name);
 
+// Of that text (base/json_schema.h).
+std::string project_schema();
+
 }  // namespace qchopper

@@ -19,13 +19,13 @@ constexpr std::size_t max_steps = 20;
 constexpr double min_point_deg = 60;  // of a drill
 constexpr double max_point_deg = 170;
 
-constexpr std::array<const char*, 5> shapes{"ball", "flat", "bull", "cone", "drill"};  // in the order of ToolShape
+constexpr std::array shapes{ToolShape::ball, ToolShape::flat, ToolShape::bull, ToolShape::cone, ToolShape::drill};
 
 ToolShape read_shape(const TomlReader& reader) {
     const std::string word = reader.text("shape");
-    const auto* found = std::find(shapes.begin(), shapes.end(), word);
+    const auto* found = std::find_if(shapes.begin(), shapes.end(), [&](ToolShape s) { return to_word(s) == word; });
     if (found == shapes.end()) reader.refuse("shape", "unknown shape " + word, "use ball, flat, bull, cone or drill");
-    return static_cast<ToolShape>(found - shapes.begin());
+    return *found;
 }
 
 void refuse_unless(const TomlReader& reader, std::string_view key, bool has_meaning, ToolShape shape) {
@@ -99,7 +99,19 @@ CuttingTool read_tool_2(const TomlReader& reader) {
 }  // namespace
 
 const char* to_word(ToolShape shape) {
-    return shapes[static_cast<std::size_t>(shape)];
+    switch (shape) {
+        case ToolShape::ball:
+            return "ball";
+        case ToolShape::flat:
+            return "flat";
+        case ToolShape::bull:
+            return "bull";
+        case ToolShape::cone:
+            return "cone";
+        case ToolShape::drill:
+            break;
+    }
+    return "drill";
 }
 
 double point_height(const CuttingTool& tool) {

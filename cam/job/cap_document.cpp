@@ -6,6 +6,7 @@
 
 #include "base/enum_names.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
 
 namespace qchopper {
 namespace {
@@ -72,6 +73,10 @@ void put(Json& at, const JobCap& cap) {
 
 void take(const Json& json, const std::string& key, JobCap& cap) {
     take<JobCap>(json, key, cap);
+}
+
+void put_schema(Json& at, const JobCap& cap) {
+    put_schema<JobCap>(at, cap);
 }
 
 std::string template_name(std::int32_t cut, const std::string& ending) {

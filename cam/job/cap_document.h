@@ -21,6 +21,8 @@ void put(nlohmann::ordered_json& at, const JobCap& cap);
 // The inverse. Throws std::runtime_error that names the key and the reason.
 void take(const nlohmann::ordered_json& json, const std::string& key, JobCap& cap);
 
+void put_schema(nlohmann::ordered_json& at, const JobCap& cap);
+
 // Throws the same unless caps and holes are in order, and point and axis of each hole in setup coordinates are those of
 // its cap, to 1e-6.
 void check_caps(const std::vector<JobCap>& caps, const Pose& piece_in_setup);

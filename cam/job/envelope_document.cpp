@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
 #include "base/units.h"
+#include "cam/job/document_schemas.h"
 #include "cam/job/setup_fields.h"
 
 namespace qchopper {
@@ -53,7 +55,9 @@ struct EnvelopeDocument {
 
 }  // namespace
 
-static void fields(JsonWriter& v, const ReachabilityPose& pose) {
+// Of what is written alone.
+template <class V, Of<ReachabilityPose> T>
+void fields(V& v, T& pose) {
     const bool has_orientation = pose.kind != PoseKind::home && pose.kind != PoseKind::tool_change;
     v("kind", key_of(pose.kind));
     v("orientation", has_orientation ? std::optional(pose.orientation + 1) : std::nullopt);
@@ -65,7 +69,8 @@ static void fields(JsonWriter& v, const ReachabilityPose& pose) {
     v("joints_deg", pose.joints ? std::optional(rounded_degrees(*pose.joints)) : std::nullopt);
 }
 
-static void fields(JsonWriter& v, const RegionReachability& region) {
+template <class V, Of<RegionReachability> T>
+void fields(V& v, T& region) {
     v("orientation", region.orientation + 1);
     v("poses", region.poses);
     v("holds", region.holds);
@@ -135,6 +140,10 @@ std::string envelope_document(const JobInput& input) {
     for (const ReachabilityMargin& margin : reachability.margins) document.checks.push_back({margin, is_held(margin)});
     document.input = &input;
     return to_document(document);
+}
+
+std::string envelope_schema() {
+    return schema_of_document<EnvelopeDocument>("work envelope of a job of qchopper");
 }
 
 ReachabilitySummary read_envelope_document(std::string_view text, const std::string& source) {

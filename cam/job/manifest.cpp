@@ -9,7 +9,9 @@
 
 #include "base/error.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
 #include "cam/job/cap_document.h"
+#include "cam/job/document_schemas.h"
 #include "cam/job/glue_faces.h"
 #include "cam/job/program_document.h"
 #include "cam/job/setup_fields.h"
@@ -293,6 +295,10 @@ std::vector<Alternative> alternatives_of(const JobInput& input) {
 
 std::string to_manifest(const JobInput& input, std::vector<JobEntry> entries) {
     return to_document(described(input, std::move(entries)));
+}
+
+std::string manifest_schema() {
+    return schema_of_document<ReadJob>("manifest of a job of qchopper");
 }
 
 ReadJob from_manifest(std::string_view text, const std::string& source) {

@@ -7,6 +7,7 @@
 #include "base/enum_names.h"
 #include "base/files/portable_name.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
 #include "cam/job/cap_document.h"
 #include "cam/job/setup_fields.h"
 
@@ -120,6 +121,10 @@ void put(Json& at, const JobProgram& program) {
 
 void take(const Json& json, const std::string& key, JobProgram& program) {
     take<JobProgram>(json, key, program);
+}
+
+void put_schema(Json& at, const JobProgram& program) {
+    put_schema<JobProgram>(at, program);
 }
 
 std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps) {

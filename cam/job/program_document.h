@@ -23,6 +23,8 @@ void put(nlohmann::ordered_json& at, const JobProgram& program);
 // The inverse. Throws std::runtime_error that names the key and the reason.
 void take(const nlohmann::ordered_json& json, const std::string& key, JobProgram& program);
 
+void put_schema(nlohmann::ordered_json& at, const JobProgram& program);
+
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.
 std::string fault_of_program_files(const std::optional<JobProgram>& program, const std::map<std::string, Bytes>& files);

@@ -1,4 +1,4 @@
-// One table, for writing and reading the template as JSON.
+// One table, for writing and reading the template as JSON, and for its schema.
 
 #include "cam/job/ticket.h"
 
@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "base/json_fields.h"
+#include "base/json_schema.h"
+#include "cam/job/document_schemas.h"
 
 namespace qchopper {
 namespace {
@@ -51,6 +53,16 @@ void fields(V& v, T& about) {
 
 std::string to_json(const TicketTemplate& about) {
     return to_document(about);
+}
+
+std::string ticket_schema() {
+    return schema_of_document<TicketTemplate>("ticket template of qchopper");
+}
+
+void put_schema(Json& at, Material /*like*/) {
+    for (auto word = std::uint16_t{0}; word <= static_cast<std::uint16_t>(Material::other); ++word) {
+        add_word(at, to_word(Material{word}).c_str());
+    }
 }
 
 TicketTemplate ticket_template_from_json(std::string_view text, const std::string& source) {

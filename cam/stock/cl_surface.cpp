@@ -46,10 +46,18 @@ struct RoundProfile {
 
 RoundProfile profile_of(const CuttingTool& tool, double allowance) {
     const double radius = 0.5 * tool.diameter + allowance;
-    if (tool.shape == ToolShape::cone || is_drill(tool))
-        return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
-    if (tool.shape == ToolShape::ball) return {radius, radius, 0};
-    return {radius, (tool.shape == ToolShape::flat ? 0 : tool.corner_radius) + allowance, 0};
+    switch (tool.shape) {
+        case ToolShape::cone:
+        case ToolShape::drill:
+            return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
+        case ToolShape::bull:
+            return {radius, tool.corner_radius + allowance, 0};
+        case ToolShape::flat:
+            return {radius, allowance, 0};
+        case ToolShape::ball:
+            break;
+    }
+    return {radius, radius, 0};
 }
 
 // The distance of the nearest point of a cell, without a border of it, from the middle of one that lies so many cells

@@ -7,15 +7,9 @@
 // Clipping once, at the start, lost what later became free: of a piece twice as high as its tools are long 16 % of the
 // reachable surface kept too much foam. Passes are not sorted strictly from above, which would cost a link for each.
 //
-// A direction takes only surface that it can finish with holder and spindle clear of what finishing leaves, scallops
-// and clearance included, not only clear of the piece; else its deepest pass lies exactly on the limit and never
-// becomes free. Passes that stay blocked all the same, 200 mm or more of an operation in parts of 20 mm, give their
-// surface back, at most twice for each kind of finishing, to the directions that reach it better. The finest tool
-// roughs before it finishes.
-//
-// Maps of a finishing are computed in tiles (FieldTiles) near the points that are left and face the tool, as far as the
-// passes there depend on them; elsewhere the CL surface is a bound, which keeps links off. Of four operations on a
-// piece of the bunny at 1.5 m these were 1 to 23 % of the map.
+// Passes that stay blocked all the same, 200 mm or more of an operation in parts of 20 mm, give their surface back, at
+// most twice for each kind of finishing, to the directions that reach it better. The finest tool roughs before it
+// finishes. What one operation finishes: finishing_operation.cpp.
 //
 // Foam is known in cells of a sixth of the finest tool's radius, 0.5 mm at least: a small tool lowers larger cells
 // hardly at all. Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle
@@ -31,7 +25,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -41,9 +34,9 @@
 #include "cam/stock/in_process_stock.h"
 #include "cam/stock/roughing_limit.h"
 #include "cam/toolpath/clipped_passes.h"
-#include "cam/toolpath/finishing/finishing.h"
 #include "cam/toolpath/finishing/finishing_region.h"
 #include "cam/toolpath/finishing_limit.h"
+#include "cam/toolpath/finishing_operation.h"
 #include "cam/toolpath/roughing.h"
 #include "cam/toolpath/run_motion.h"
 #include "cam/toolpath/toolpath_linker.h"
@@ -65,9 +58,6 @@ constexpr double thinner = 0.75;          // of the diameter of the tool before:
 constexpr double depth_per_diameter = 3;  // of a cut at most
 constexpr double worthwhile_rate = 0.3;   // of a tool's, removed by roughing what others left
 constexpr double skin_beyond = 4.2;       // mm beyond the allowance: a narrower rim of foam is left to finishing
-
-// Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
-constexpr DilationOptions finishing_dilation_options{0, 0.075};
 
 class ToolpathMaker {
  public:
@@ -210,80 +200,31 @@ class ToolpathMaker {
         }
         retry(tool);
         if (blocked_length(tool) >= worth_another) clear_for(tool);
-        for (int k = 0; k < max_given_back && directions > 1 && give_back(tool); ++k) {
+        for (int k = 0; k < max_given_back && directions > 1 && give_blocked_back(tool); ++k) {
             for (std::size_t d = 0; d < directions; ++d) finish_along(d, tool, kind, true);
             retry(tool);
         }
     }
 
-    // With `over_stock` it goes no deeper than the foam that stands lets it.
-    void finish_along(std::size_t orientation, std::size_t tool_index, OperationKind kind, bool over_stock) {
-        const CuttingTool& tool = machine_.tools[tool_index];
-        FinishingOptions options;
-        options.scallop = settings_.scallop;
-        options.path_tolerance = settings_.path_tolerance;
-        options.rounding = settings_.rounding;
-        Operation operation = new_operation(orientation, tool_index, kind);
-        operation.stepover = finishing_stepover(tool, options);
-        operation.scallop = options.scallop;
-        operation.rounding = settings_.rounding;
-        const double floor_z = finishing_floor(setup_, setup_.tool_axis(orientation), 0.5 * tool.diameter);
-        auto over_piece = std::make_unique<ToolOverPiece>(target(orientation, settings_.cell, floor_z), tool);
-        const bool has_floor = orientation == 0 && kind == OperationKind::finishing && !over_stock;
-        const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
-        FinishingTiles tiles = finishing_tiles(operation, over_piece->piece, floor, options);
-        HeightField own_cl = cl_surface(over_piece->tool, tiles.tip);  // without holder and spindle
-        HeightField cl = finishing_cl_surface(operation, over_piece->piece, own_cl, tiles.tip);
-        if (over_stock) raise_to_limit(cl, limit_now(operation, lowest_of(cl, tiles.tip)), tiles.tip);
-        const FinishingRegion region = finishing_region(operation, cl, tiles.surface);
-        const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
-        if (is_empty && !over_stock) is_empty_.insert({tool_index, orientation});
-        if (is_empty && !has_floor) return;
-        if (has_floor) options.floor = &floor;
-        options.tool = &over_piece->tool;
-        options.tiles = &tiles.tip;
-        std::vector<Pass> passes = finishing_passes(cl, tool, region, options, context_);
-        passes = clear_of_sawn_faces(near_surface(passes, own_cl), own_cl, tool, setup_);
-        own_cl = {};
-        PassesLeft left{std::move(operation), std::move(over_piece), std::move(cl),
-                        std::move(tiles),     std::move(passes),     left_.takes()};
-        mill(left);
-        if (!left.passes.empty()) blocked_.push_back(std::move(left));
+    // What one finishes along a direction; with `stock` no deeper than that lets it.
+    FinishingInput finishing_input(std::size_t orientation, std::size_t tool, const HeightField* stock) {
+        return {setup_, mesh_, machine_, settings_, coarse_piece(orientation), border_, stock, is_followed_twice(tool)};
     }
 
-    // A finishing tool over the map of the piece. It stays where it is.
-    struct ToolOverPiece {
-        ToolOverPiece(HeightField map, const CuttingTool& of)
-            : piece(std::move(map)), tool(piece, of, finishing_dilation_options) {}
-        HeightField piece;
-        ToolDilation tool;
-    };
+    HeightField standing_stock(std::size_t orientation) {
+        return centre_stock_.highest(orientation, coarse_piece(orientation));
+    }
 
-    // Where maps of a finishing are computed: what remains of the surface, and the tip of the tool.
-    struct FinishingTiles {
-        FieldTiles surface;
-        FieldTiles tip;
-    };
-
-    // Passes of an operation that are not milled yet, over its CL surface.
-    struct PassesLeft {
-        Operation operation;  // without runs
-        std::unique_ptr<ToolOverPiece> over_piece;
-        HeightField cl;
-        FinishingTiles tiles;
-        std::vector<Pass> passes;
-        std::size_t take = 0;  // of RestMaterial; 0: the surface was given back
-    };
-
-    static double lowest_of(const HeightField& cl, const FieldTiles& tiles) {
-        double lowest = std::numeric_limits<double>::infinity();
-        for (std::size_t row = 0; row < cl.rows; ++row) {
-            for (const CellSpan& span : tiles.spans(row)) {
-                const float* own = &cl.height[row * cl.columns];
-                lowest = std::min(lowest, static_cast<double>(*std::min_element(own + span.first, own + span.end)));
-            }
-        }
-        return lowest;
+    // With `over_stock` it goes no deeper than the foam that stands lets it.
+    void finish_along(std::size_t orientation, std::size_t tool_index, OperationKind kind, bool over_stock) {
+        const HeightField stock = over_stock ? standing_stock(orientation) : HeightField();
+        PassesLeft left = finishing_operation(new_operation(orientation, tool_index, kind),
+                                              finishing_input(orientation, tool_index, over_stock ? &stock : nullptr),
+                                              left_, context_);
+        if (!left.has_surface && !over_stock) is_empty_.insert({tool_index, orientation});
+        if (left.passes.empty()) return;
+        mill(left);
+        if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
 
     static double lowest_of(const std::vector<Pass>& passes) {
@@ -356,7 +297,7 @@ class ToolpathMaker {
     }
 
     // Marks surface under passes that stay blocked as left again. Whether there is any.
-    bool give_back(std::size_t tool) {
+    bool give_blocked_back(std::size_t tool) {
         bool is_any = false;
         for (PassesLeft& left : blocked_) {
             if (left.operation.tool != tool || left.take == 0) continue;
@@ -364,70 +305,10 @@ class ToolpathMaker {
             for (const Pass& pass : left.passes) length += length_of(pass) < long_blocked ? 0 : length_of(pass);
             if (length < worth_another) continue;
             context_.check_cancelled();
-            HeightField cl = left.cl;
-            const FieldTiles& tiles = left.tiles.tip;
-            raise_to_limit(cl, limit_now(left.operation, lowest_of(cl, tiles)), tiles);
-            const HeightField remaining = remaining_surface(cl, machine_.tools[tool], left.tiles.surface);
-            if (left_.give_back(left.take, remaining, near(left.operation))) is_any = true;
-            left.take = 0;
+            const HeightField stock = standing_stock(left.operation.orientation);
+            if (give_back(left, finishing_input(left.operation.orientation, tool, &stock), left_)) is_any = true;
         }
         return is_any;
-    }
-
-    // For CL surfaces that are never below `lowest`.
-    HeightField limit_now(const Operation& operation, double lowest) {
-        const HeightField stock = centre_stock_.highest(operation.orientation, coarse_piece(operation.orientation));
-        return limit_over_stock(stock, machine_.tools[operation.tool], body_of(operation.tool),
-                                finishing_gap(setup_, stock_cell_), lowest);
-    }
-
-    // Foam up to so much is as good as none.
-    double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
-
-    // Those that what the operation may finish depends on, and what is near to the floor if there is one.
-    FinishingTiles finishing_tiles(const Operation& operation, const HeightField& piece, const FinishingRegion& floor,
-                                   const FinishingOptions& options) const {
-        const auto cells = [&](double length) { return static_cast<std::size_t>(std::ceil(length / piece.cell)); };
-        FieldTiles places = left_.places(piece, near(operation), worth(operation));
-        const FieldTiles surface = places.grown(cells(RestMaterial::examined(near(operation))) + 1);
-        for (std::size_t i = 0; i < floor.size(); ++i) {
-            if (floor[i] < not_finished) places.add(i);
-        }
-        const CuttingTool& tool = machine_.tools[operation.tool];
-        const double margin = std::max(finishing_margin(tool, options, piece.cell) + touching,
-                                       RestMaterial::examined(near(operation)) + 0.5 * tool.diameter + piece.cell);
-        return {surface, places.grown(cells(margin) + 1)};
-    }
-
-    // A CL surface over the piece, raised for holder and spindle.
-    HeightField finishing_cl_surface(const Operation& operation, const HeightField& piece, HeightField cl,
-                                     const FieldTiles& tiles) {
-        const ToolBody body = body_of(operation.tool);
-        raise_to_holder(cl, piece, body, setup_.piece_in_setup);
-        const double foam_left = operation.scallop + settings_.path_tolerance;
-        raise_to_limit(cl,
-                       limit_over_finished(coarse_piece(operation.orientation), foam_left, body,
-                                           finishing_gap(setup_, stock_cell_), lowest_of(cl, tiles)),
-                       tiles);
-        return cl;
-    }
-
-    // What the operation finishes over its CL surface.
-    FinishingRegion finishing_region(const Operation& operation, const HeightField& cl, const FieldTiles& tiles) {
-        return left_.take(remaining_surface(cl, machine_.tools[operation.tool], tiles), near(operation),
-                          operation.stepover, worth(operation), is_followed_twice(operation.tool));
-    }
-
-    // A fine tool goes on where others have left more than so much.
-    double worth(const Operation& operation) const {
-        return operation.kind == OperationKind::fine_finishing ? near(operation) : 0;
-    }
-
-    // The floor within a tool's width of the piece.
-    FinishingRegion floor_band(const HeightField& piece, double width) const {
-        FinishingRegion floor(piece.height.size(), not_finished);
-        add_floor_band(floor, piece, width, setup_);
-        return floor;
     }
 
     // Whether two more tools finish after it. The last but one clears for the last what neither of them finishes.

@@ -190,6 +190,10 @@ struct CellControlArguments : CellChoiceArguments {
     bool yes = false;
 };
 
+struct SchemaArguments {
+    std::string document;  // manifest, envelope, ticket, verdict, project
+};
+
 struct Arguments {
     bool json = false;  // for the option parser only; run.cpp reads it before
     bool quiet = false;
@@ -197,7 +201,7 @@ struct Arguments {
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
                  CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
-                 DispatchArguments, JournalArguments, CellControlArguments>
+                 DispatchArguments, JournalArguments, CellControlArguments, SchemaArguments>
         command;
 };
 

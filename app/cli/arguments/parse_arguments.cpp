@@ -98,6 +98,7 @@ struct Parser {
     JournalArguments journal_show;
     JournalArguments journal_verify;
     CellControlArguments cell_control;
+    SchemaArguments schema;
 
     Parser() {
         app.footer(examples_of(""));
@@ -118,6 +119,7 @@ struct Parser {
         add_dispatch();
         add_journal();
         add_cell();
+        add_schema();
         for (CLI::App* command : app.get_subcommands({})) {
             const std::string examples = examples_of(command->get_name());
             command->footer(examples);
@@ -188,6 +190,15 @@ struct Parser {
         c->add_option("-o,--out", exported.out,
                       "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
         add_common(c, common, [this] { common.command = exported; });
+    }
+
+    // Not listed: for who writes a program that reads our documents (docs/developer/formats/job-folder.md).
+    void add_schema() {
+        CLI::App* c = app.add_subcommand("schema", "print the JSON schema of a document")->group("");
+        c->add_option("DOCUMENT", schema.document, "manifest, envelope, ticket, verdict or project")
+            ->required()
+            ->check(one_of({"manifest", "envelope", "ticket", "verdict", "project"}));
+        add_common(c, common, [this] { common.command = schema; });
     }
 
     void add_cells() {

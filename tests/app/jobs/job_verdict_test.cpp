@@ -6,8 +6,10 @@
 
 #include <fstream>
 
+#include "app/jobs/verdict_schema.h"
 #include "base/error.h"
 #include "base/files/temporary_folder.h"
+#include "tests/json_schema.h"
 
 namespace qchopper {
 namespace {
@@ -60,6 +62,15 @@ TEST(JobVerdict, IsReadAsItWasWritten) {
     good.findings.clear();
     good.is_positive = true;
     EXPECT_EQ(job_verdict_from_json(to_json(good), "B.verdict.json"), good);
+    const SchemaJson schema = SchemaJson::parse(verdict_schema());
+    for (const JobVerdict& valid : {verdict, good}) {
+        EXPECT_EQ(schema_faults(schema, SchemaJson::parse(to_json(valid))), std::vector<std::string>());
+    }
+}
+
+TEST(JobVerdict, ThePageOfTheFormatHasTheKeysOfTheTables) {
+    expect_keys_of_page("verdict.md", "verdict  = ", {verdict_schema()},
+                        {"verdict", "object", "in", "the", "one", "form", "of", "all", "files", "a", "project"});
 }
 
 TEST(JobVerdict, StandsBesideTheJob) {

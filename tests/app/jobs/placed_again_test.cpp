@@ -4,10 +4,12 @@
 
 #include <filesystem>
 
+#include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
 #include "cam/cell/cell.h"
 #include "segment/search/segmentation.h"
 #include "tests/app/ball_cap.h"
+#include "tests/folder.h"
 
 namespace qchopper {
 namespace {
@@ -37,6 +39,30 @@ TEST(PlacedAgain, WhereTheArmHoldsTheToolpath) {
     EXPECT_EQ(setups.placed(piece).setup().placement, held.setup().placement) << "a place that does not hold the setup";
     setups.set_places({});
     EXPECT_EQ(setups.placed(piece).setup(), held.setup());
+}
+
+// Else the next run, which keeps the program, would have the block elsewhere.
+TEST(PlacedAgain, APlaceStaysOnRecordWhenTheJobIsWrittenAgain) {
+    const Folder folder;
+    const std::filesystem::path ready = std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml";
+    std::filesystem::copy_file(ready, folder.path / "cell.toml");
+    std::filesystem::create_directory(folder.path / "jobs");
+    const Segmentation segmentation = uncut(ball_cap(), 0);
+    const Piece& piece = segmentation.pieces.front();
+    Project project;
+    project.has_programs = false;
+    Setups setups(read_cell(ready));
+    const auto write = [&] {
+        write_job(folder.path, project, segmentation, 0, setups, {}, "1.0", {});
+        return project.jobs.at(0).place;
+    };
+    EXPECT_FALSE(write()) << "it stands where its poses have it";
+    const BlockPlacement place = setups.placed(piece).setup().placement;
+    project.jobs.at(0).place = place;
+    EXPECT_EQ(write(), place);
+    EXPECT_EQ(write(), place);
+    project.jobs.at(0).place->x += 2500;
+    EXPECT_FALSE(write()) << "the setup stands elsewhere";
 }
 
 }  // namespace

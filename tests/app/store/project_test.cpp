@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "segment/mesh/measure.h"
+#include "tests/json_schema.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -68,6 +69,17 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     decided.beam = BeamState{decided.cuts.size(), {}, {{0, {"A", "C"}, {{"C", 3, 81200.1, 79000.5, true}}}}, {}};
     save_project(folder, decided);
     EXPECT_EQ(load_project(folder), decided);
+    const SchemaJson schema = SchemaJson::parse(project_schema());
+    decide(decided.history, Discards{{"A", 1}});
+    decide(decided.history, Discards{{"A", 1}, {"B", 1}});
+    for (const Project& valid : {project, decided}) {
+        EXPECT_EQ(schema_faults(schema, SchemaJson::parse(to_json(valid))), std::vector<std::string>());
+    }
+}
+
+TEST(ProjectJson, ThePageOfTheFormatHasTheKeysOfTheTables) {
+    expect_keys_of_page("project-folder.md", "project      = ", {project_schema()},
+                        {"project", "null", "true", "those", "of", "that", "are", "not"});
 }
 
 TEST_F(ProjectFolder, TheReasonOfTheEndIsAValueBesideItsSentence) {
