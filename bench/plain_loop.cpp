@@ -146,6 +146,7 @@ template <bool counts>
 Count lower_all(std::vector<HeightField>& fields, const std::vector<TipLine>& lines,
                 const std::vector<CuttingTool>& tools) {
     std::vector<Cutter> cutters;
+    cutters.reserve(tools.size());
     for (const CuttingTool& tool : tools) cutters.push_back(cutter_of(tool));
     Count count;
     for (const TipLine& line : lines) {
@@ -171,6 +172,7 @@ Count lower_all(std::vector<HeightField>& fields, const std::vector<TipLine>& li
 PlainLoop plain_loop(const std::vector<TipLine>& lines, const Box& block, const std::vector<Vec3>& tool_axes,
                      const std::vector<CuttingTool>& tools, double cell, int runs) {
     std::vector<HeightField> uncut;
+    uncut.reserve(tool_axes.size());
     for (const Vec3& tool_axis : tool_axes) uncut.push_back(field_of(block, tool_axis, cell));
     PlainLoop loop;
     loop.cpu_s = std::numeric_limits<double>::infinity();
