@@ -12,8 +12,8 @@
 
 namespace qchopper {
 
-// A count of work items, never an estimate of time: "37 of 120 planes evaluated". Work that may take long reports 0
-// when it begins.
+// A count of work items: "37 of 120 planes evaluated". Of items that cost very different times it is per cent of the
+// time of all, as estimated. Work that may take long reports 0 when it begins.
 struct Progress {
     std::string what;  // "planes evaluated"
     std::size_t done = 0;

@@ -11,10 +11,10 @@
 #include <tuple>
 #include <vector>
 
-#include "app/jobs/job_proof.h"
 #include "base/error.h"
 #include "base/timings.h"
 #include "bench/clock.h"
+#include "bench/job_piece.h"
 #include "cam/job/read_job.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/mesh/measure.h"
@@ -45,21 +45,6 @@ Setup setup_of_mesh(const ReadJob& job) {
     setup.up = {0, 0, 1};
     setup.piece_in_setup = {};
     return setup;
-}
-
-// The caps of a mesh in setup coordinates, from the planes that the job states.
-void mark_caps(TriangleMesh& mesh, const ReadJob& job) {
-    constexpr double near = 1e-3;
-    mesh.cap_of.assign(mesh.triangles.size(), no_cap);
-    for (const HalfSpace& half_space : job.half_spaces) {
-        const Vec3 point = apply(job.setup.piece_in_setup, half_space.plane.offset * half_space.plane.normal);
-        const Vec3 normal = rotate(job.setup.piece_in_setup, half_space.plane.normal);
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            const auto corners = corners_of(mesh, t);
-            const auto is_in_plane = [&](Vec3 p) { return std::abs(dot(p - point, normal)) <= near; };
-            if (std::all_of(corners.begin(), corners.end(), is_in_plane)) mesh.cap_of[t] = half_space.cut;
-        }
-    }
 }
 
 ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMesh& mesh, const Cell& cell) {
@@ -215,8 +200,7 @@ MillingFigures mill(const Toolpath& path, const ReplayScene& scene, const Cell& 
 int measure(const std::string& job_file, const std::string& cell_file, double replay_cell) {
     const ReadJob job = parse_job(read_job(job_file), job_file);
     const Cell cell = read_cell(cell_file);
-    TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job.piece);
-    mark_caps(mesh, job);
+    const TriangleMesh mesh = mesh_of(job);
     const Setup setup = setup_of_mesh(job);
     const Vec3 size = setup.block.size;
     std::printf("piece %s: %zu faces, block %.0f x %.0f x %.0f\n", job.piece.c_str(), mesh.triangles.size(), size.x,

@@ -1,4 +1,6 @@
-// Job files are read and hashed whole; the mesh of the piece is compared as bytes. O(bytes).
+// The source is the manifest that the job would have without its program, and what that does not hold: the mesh to the
+// bit, the holes, how the arm holds each region of poses. What says nothing about the program is left out of it. The
+// content is what the job file and its verdict hold of the programs, in their own words. O(bytes).
 
 #include "app/jobs/kept_programs.h"
 
@@ -7,89 +9,215 @@
 #include <utility>
 
 #include "app/jobs/job_verdict.h"
-#include "base/error.h"
+#include "app/store/caches/cache_file.h"
+#include "cam/job/envelope_document.h"
 #include "cam/job/job_caps.h"
-#include "cam/job/read_job.h"
-#include "segment/io/write_mesh.h"
-#include "segment/mesh/transform.h"
+#include "cam/job/manifest.h"
+#include "cam/job/program_document.h"
+#include "cam/post/krl.h"
 
 namespace qchopper {
 namespace {
 
-// The caps of the source with the decisions of the job; nothing if the job has other holes.
-std::optional<std::vector<DrawnCap>> decided(const ReadJob& job, const ProgramSource& source) {
-    std::vector<DrawnCap> caps = source.caps;
-    std::vector<std::size_t> drilled;
-    std::map<std::size_t, std::string> reasons;
-    for (const JobHole& hole : holes_of(job.caps)) {
-        if (hole.by_robot) drilled.push_back(hole.number);
-        reasons[hole.number] = hole.by_hand;
+namespace fs = std::filesystem;
+
+// To be raised whenever toolpath, program, post or proof make something else of the same source.
+constexpr std::uint32_t version_of_programs = 1;
+
+void put(CacheWriter& out, const Vec3& v) {
+    for (const double x : {v.x, v.y, v.z}) out.put(x);
+}
+
+void put(CacheWriter& out, const JobHole& hole) {
+    out.put(hole.number);
+    out.put(hole.diameter);
+    out.put(hole.depth);
+    put(out, hole.point);
+    put(out, hole.axis);
+    out.put(hole.by_hand);
+}
+
+std::vector<JobHole> holes_of(const std::vector<DrawnCap>& caps) {
+    std::vector<JobCap> bare;
+    bare.reserve(caps.size());
+    for (const DrawnCap& drawn : caps) bare.push_back(drawn.cap);
+    return qchopper::holes_of(bare);
+}
+
+// Of a job, what says something about its program.
+JobInput without_others(const JobInput& job) {
+    JobInput own = job;
+    own.piece_no = own.piece_count = 1;
+    own.project_id = {};
+    own.scan_sha256 = {};
+    own.alternatives.clear();
+    own.states.clear();
+    own.max_unreachable = 1;
+    own.warnings.clear();
+    own.program.reset();
+    own.caps.clear();
+    own.no_program_because.clear();
+    return own;
+}
+
+void put(CacheWriter& out, const BlockPlacement& place) {
+    for (const double x : {place.x, place.y, place.turn}) out.put(x);
+    out.put_all(place.table_angles);
+}
+
+BlockPlacement placement_from(CacheReader& in) {
+    BlockPlacement place;
+    for (double* x : {&place.x, &place.y, &place.turn}) *x = in.get<double>();
+    place.table_angles = in.get_all<double>();
+    return place;
+}
+
+std::string text_from(CacheReader& in) {
+    const std::vector<char> text = in.get_all<char>();
+    return {text.begin(), text.end()};
+}
+
+void put(CacheWriter& out, const ProvenProgram& part) {
+    JobProgram program = part.input.program;
+    if (program.part.number > 1) program.part.before = Sha256{};  // not known yet; the document asks for one
+    out.put(to_json(program));
+    JobVerdict verdict;
+    static_cast<ProofResult&>(verdict) = part.input.proof;
+    out.put(to_json(verdict));
+    out.put(part.input.texts.size());
+    for (const auto& [name, text] : part.input.texts) {
+        out.put(name);
+        out.put(text);
     }
+    out.put_all(part.input.tools);
+    out.put_all(part.input.deviation_picture);
+    out.put_all(part.input.stock);
+    out.put(part.proof.time_s);
+    out.put(part.proof.length_mm);
+}
+
+// Throws std::runtime_error if the bytes are not those of a part.
+ProvenProgram part_from(CacheReader& in) {
+    ProvenProgram part;
+    part.input.program = job_program_from_json(text_from(in));
+    part.input.program.part.before.reset();
+    part.input.proof = job_verdict_from_json(text_from(in), "a kept verdict");
+    for (std::size_t texts = in.count(); texts > 0; --texts) {
+        std::string name = text_from(in);
+        part.input.texts[std::move(name)] = text_from(in);
+    }
+    part.input.tools = in.get_all<std::uint16_t>();
+    part.input.deviation_picture = in.get_all<std::uint8_t>();
+    part.input.stock = in.get_all<std::uint8_t>();
+    static_cast<ProofResult&>(part.proof) = part.input.proof;
+    part.proof.chunks = part.input.program.chunks;
+    part.proof.time_s = in.get<double>();
+    part.proof.length_mm = in.get<double>();
+    return part;
+}
+
+// The part for a piece of another number.
+void renumber(ProvenProgram& part, std::uint16_t from, std::uint16_t to) {
+    JobProgram& program = part.input.program;
+    program.entry = renumbered_name(program.entry, from, to);
+    for (std::string& file : program.files) file = renumbered_name(file, from, to);
+    for (JobChunk& chunk : program.chunks) chunk.file = renumbered_name(chunk.file, from, to);
+    part.proof.chunks = program.chunks;
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, text] : part.input.texts) {
+        texts[renumbered_name(name, from, to)] = renumbered_text(text, from, to);
+    }
+    part.input.texts = std::move(texts);
+}
+
+// The caps of the source with what was decided about their holes.
+std::vector<DrawnCap> decided(const ProgramSource& source, const std::vector<std::size_t>& drilled,
+                              const std::map<std::size_t, std::string>& reasons) {
+    std::vector<DrawnCap> caps = source.job.caps;
     decide_holes(caps, drilled, reasons, {});
-    std::vector<JobCap> own;
-    own.reserve(caps.size());
-    for (const DrawnCap& drawn : caps) own.push_back(drawn.cap);
-    if (own != job.caps) return std::nullopt;
     return caps;
 }
 
-bool is_text(const Bytes& bytes, const std::string& text) {
-    return std::equal(bytes.begin(), bytes.end(), text.begin(), text.end());
+// Whether nothing but the names of files tells the number of the piece. Reasons may name a chunk.
+bool can_be_renumbered(const PiecePrograms& programs, const std::map<std::size_t, std::string>& reasons) {
+    const auto is_proven = [](const ProvenProgram& part) { return part.proof.is_proven(); };
+    const auto names_chunk = [](const auto& reason) { return reason.second.find("qc_") != std::string::npos; };
+    return programs.none_because.empty() && std::ranges::all_of(programs.parts, is_proven) &&
+           std::ranges::none_of(reasons, names_chunk);
 }
 
-bool is_made_from(const ReadJob& job, const JobVerdict& verdict, const ProgramSource& source, const Bytes& mesh) {
-    return job.program && job.setup == source.setup && job.piece_no == source.piece_no &&
-           job.program_version == source.program_version && job.files.at("piece.stl") == mesh &&
-           is_text(job.files.at("envelope.json"), source.envelope_document) && verdict.job_sha256 == job.file_sha256 &&
-           verdict.cell_sha256 == source.cell_sha256 && verdict.program_version == source.program_version;
-}
-
-ProvenProgram program_of(const ReadJob& job, const JobVerdict& verdict) {
-    ProvenProgram proven;
-    ProgramInput& input = proven.input;
-    input.program = *job.program;
-    input.program.part.before.reset();
-    for (const std::string& name : job.program->files) {
-        const Bytes& bytes = job.files.at(name);
-        input.texts[name] = {bytes.begin(), bytes.end()};
+std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource& source) {
+    PiecePrograms programs;
+    const auto number = in.get<std::uint16_t>();
+    programs.none_because = text_from(in);
+    if (in.get<std::uint8_t>() != 0) programs.place = placement_from(in);
+    std::vector<std::size_t> drilled;
+    std::map<std::size_t, std::string> reasons;
+    for (std::size_t holes = in.count(); holes > 0; --holes) {
+        const auto hole = in.get<std::size_t>();
+        if (in.get<std::uint8_t>() != 0) drilled.push_back(hole);
+        reasons[hole] = text_from(in);
     }
-    for (const JobChunk& chunk : job.program->chunks) {
-        if (input.tools.empty() || input.tools.back() != chunk.tool) input.tools.push_back(chunk.tool);
-    }
-    input.proof = verdict;
-    const auto picture = job.files.find("deviation.png");
-    if (picture != job.files.end()) input.deviation_picture = picture->second;
-    const auto stock = job.files.find("stock.bin");
-    if (stock != job.files.end()) input.stock = stock->second;
-    proven.proof.chunks = job.program->chunks;
-    static_cast<ProofResult&>(proven.proof) = verdict;
-    proven.proof.time_s = verdict.figure("time_s");
-    proven.proof.length_mm = 1000 * verdict.figure("path_m");
-    return proven;
+    programs.caps = decided(source, drilled, reasons);
+    for (std::size_t parts = in.count(); parts > 0; --parts) programs.parts.push_back(part_from(in));
+    if (!in.is_whole()) return std::nullopt;
+    if (number == source.job.piece_no) return programs;
+    if (!can_be_renumbered(programs, reasons)) return std::nullopt;
+    for (ProvenProgram& part : programs.parts) renumber(part, number, source.job.piece_no);
+    return programs;
 }
 
 }  // namespace
 
-std::optional<PiecePrograms> kept_programs(const std::filesystem::path& jobs, const ProgramSource& source) {
-    const Bytes mesh = to_stl(apply(source.setup.piece_in_setup, *source.piece.mesh));
-    PiecePrograms programs;
+fs::path programs_file(const fs::path& folder, const ProgramSource& source) {
+    CacheWriter out;
+    out.put(version_of_programs);
+    const JobInput own = without_others(source.job);
+    out.put(to_manifest(own, {}));
+    out.put(envelope_document(own));
+    const Piece& piece = source.job.piece;
+    for (const Vec3& point : piece.mesh->points) put(out, point);
+    out.put_all(piece.mesh->triangles);
+    out.put_all(piece.mesh->cap_of);
+    const std::vector<JobHole> holes = holes_of(source.job.caps);
+    out.put(holes.size());
+    for (const JobHole& hole : holes) put(out, hole);
+    out.put(std::to_string(source.job.piece_no).size());
+    out.put_all(std::vector<std::uint8_t>(source.cell_sha256.bytes.begin(), source.cell_sha256.bytes.end()));
+    out.put(static_cast<std::uint8_t>(source.fine));
+    return cache_file(folder, out, programs_ending);
+}
+
+std::optional<PiecePrograms> kept_programs(const fs::path& file, const ProgramSource& source) {
+    const std::optional<Bytes> bytes = kept(file);
+    if (!bytes) return std::nullopt;
+    CacheReader in(*bytes);
     try {
-        for (std::uint16_t part = 1, count = 1; part <= count; ++part) {
-            const std::filesystem::path file = jobs / job_file_name(source.piece.name, part);
-            const std::optional<JobVerdict> verdict = read_verdict(file);
-            if (!verdict) return std::nullopt;
-            const ReadJob job = parse_job(read_job(file), file.string());
-            if (!is_made_from(job, *verdict, source, mesh) || job.program->part.number != part) return std::nullopt;
-            std::optional<std::vector<DrawnCap>> caps = decided(job, source);
-            if (!caps) return std::nullopt;
-            programs.caps = std::move(*caps);
-            count = job.program->part.count;
-            programs.parts.push_back(program_of(job, *verdict));
-        }
-    } catch (const InputError&) {
-        return std::nullopt;  // missing or damaged: made again
+        std::optional<PiecePrograms> programs = programs_from(in, source);
+        std::error_code error;
+        if (programs) fs::last_write_time(file, fs::file_time_type::clock::now(), error);
+        return programs;
+    } catch (const std::runtime_error&) {
+        return std::nullopt;  // of another schema: made again
     }
-    return programs;
+}
+
+void keep_programs(const fs::path& file, const ProgramSource& source, const PiecePrograms& programs) {
+    CacheWriter out;
+    out.put(source.job.piece_no);
+    out.put(programs.none_because);
+    out.put(static_cast<std::uint8_t>(programs.place.has_value()));
+    if (programs.place) put(out, *programs.place);
+    const std::vector<JobHole> holes = holes_of(programs.caps);
+    out.put(holes.size());
+    for (const JobHole& hole : holes) {
+        out.put(hole.number);
+        out.put(static_cast<std::uint8_t>(hole.by_robot));
+        out.put(hole.by_hand);
+    }
+    out.put(programs.parts.size());
+    for (const ProvenProgram& part : programs.parts) put(out, part);
+    keep(file, out);
 }
 
 }  // namespace qchopper

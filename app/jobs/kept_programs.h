@@ -1,33 +1,40 @@
-// The programs of a piece that an earlier run made and proved, taken from the job files that it left.
+// Keeps the programs of pieces with their proof on disk, so that they are made once: what a change of other pieces
+// leaves the same is not made again. The files may be deleted at any time.
 //
-// Making and proving a program takes minutes; a run that was stopped goes on with the pieces that are not done. What is
-// taken is what would be made again: same input, same bytes (tests/app/jobs/kept_programs_test.cpp).
+// A file is named by a SHA-256 over all that programs are made from, and ends in a SHA-256 of its content: programs of
+// another source and damaged files are ignored. What is taken is what would be made again, to the byte
+// (tests/app/jobs/kept_programs_test.cpp). The number of the piece changes names alone (cam/post/krl.h, renumbered):
+// programs that are proven are taken for another number of as many digits.
 
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "app/jobs/piece_program.h"
 #include "base/sha256.h"
+#include "cam/job/job.h"
+#include "cam/toolpath/toolpath_settings.h"
 
 namespace qchopper {
 
+constexpr const char* programs_ending = ".programs";  // of the names of the files
+
 // What programs of a piece depend on.
 struct ProgramSource {
-    const Piece& piece;
-    const Setup& setup;
-    const std::string& envelope_document;  // of its work envelope: how the arm holds each region of poses
-    std::uint16_t piece_no = 1;
-    const std::vector<DrawnCap>& caps;   // before anything was decided about their holes
-    Sha256 cell_sha256;                  // of the cell file
-    const std::string& program_version;  // of qchopper
+    const JobInput& job;  // before its program and before anything was decided about its holes
+    Sha256 cell_sha256;   // of the cell file
+    FineTools fine = FineTools::worthwhile;
 };
 
-// Nothing unless the folder of jobs holds all parts of the piece's program, each with the verdict on its bytes, all
-// made from this source. Files that are damaged count as missing.
-std::optional<PiecePrograms> kept_programs(const std::filesystem::path& jobs, const ProgramSource& source);
+// The file in `folder`, whether it is there or not. O(triangles).
+std::filesystem::path programs_file(const std::filesystem::path& folder, const ProgramSource& source);
+
+// What keep_programs wrote into the file of this source; nothing if there is none, or it is damaged. A file that is
+// taken counts as written now (remove_oldest of app/store/caches/cache_file.h). O(bytes).
+std::optional<PiecePrograms> kept_programs(const std::filesystem::path& file, const ProgramSource& source);
+
+// What cannot be written is not kept. O(bytes).
+void keep_programs(const std::filesystem::path& file, const ProgramSource& source, const PiecePrograms& programs);
 
 }  // namespace qchopper

@@ -4,6 +4,7 @@
 #include "app/jobs/piece_jobs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -13,11 +14,14 @@
 #include "app/jobs/kept_programs.h"
 #include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_program.h"
+#include "app/jobs/program_effort.h"
+#include "app/store/caches/cache_file.h"
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/files/file.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/envelope_document.h"
@@ -42,6 +46,8 @@ double max_unreachable(const Project& project, const Cell& cell) {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kept_per_piece = 4;  // files of programs: of what is there and of earlier decisions
 
 struct MadeJob {
     PieceReport report;
@@ -145,18 +151,37 @@ void write_one(const JobInput& input, const JobProof* proof, const JobOrders& or
     made.report.length_mm += proof->length_mm;
 }
 
-// Those that an earlier run made of the same, or new ones.
+// Why the pieces get no programs; empty: they do.
+std::string none_because(const JobOrders& orders) {
+    const std::string because = no_programs_for(orders.cell);
+    return because.empty() && !orders.project.has_programs ? "prepare was asked for none" : because;
+}
+
+ProgramSource source_of(const JobOrders& orders, const JobInput& input) {
+    return {input, orders.cell_sha256, orders.project.has_all_fine_tools ? FineTools::all : FineTools::worthwhile};
+}
+
+fs::path kept_file(const JobOrders& orders, const JobInput& input) {
+    return programs_file(orders.folder / "cache", source_of(orders, input));
+}
+
+// Those that are kept, or new ones, which are kept then.
 PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const PlacedSetup& piece_setup,
-                          const Context& context) {
-    std::string none_because = no_programs_for(orders.cell);
-    if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
-    if (!none_because.empty()) return {{}, none_because, caps_by_hand(input.caps, none_because)};
-    const std::string envelope = envelope_document(input);
-    const ProgramSource source{input.piece,        input.setup,           envelope, input.piece_no, input.caps,
-                               orders.cell_sha256, orders.program_version};
-    if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
-    const FineTools fine = orders.project.has_all_fine_tools ? FineTools::all : FineTools::worthwhile;
-    return make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, fine);
+                          const Context& context, PieceReport& report) {
+    const std::string because = none_because(orders);
+    if (!because.empty()) return {{}, because, caps_by_hand(input.caps, because)};
+    const ProgramSource source = source_of(orders, input);
+    const fs::path file = kept_file(orders, input);
+    {
+        const StageTimer stage(context, "kept programs read");
+        std::optional<PiecePrograms> kept = kept_programs(file, source);
+        report.has_kept_programs = kept.has_value();
+        if (kept) return std::move(*kept);
+    }
+    PiecePrograms programs =
+        make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, source.fine);
+    keep_programs(file, source, programs);
+    return programs;
 }
 
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
@@ -172,13 +197,16 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
         return made;
     }
     JobInput input = job_input(orders, index, piece_setup);
-    const PiecePrograms programs = programs_of(orders, input, piece_setup, context);
+    PiecePrograms programs = programs_of(orders, input, piece_setup, context, made.report);
+    const bool is_placed_again = programs.place.has_value();
     if (programs.place) {
         const Cell planned = with_tools(orders.cell, piece_setup.setup().tools);
         PlacedSetup placed = placed_at(piece_setup, piece, planned, *programs.place).value();
         input = job_input(orders, index, placed);
         placed.choice.states.clear();
         made.report.piece_setup = std::move(placed);
+        programs.place.reset();  // the next run finds the block where it is now
+        keep_programs(kept_file(orders, input), source_of(orders, input), programs);
     }
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
@@ -195,7 +223,7 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
     // Its programs need the block there, or those of an earlier run did and the setup has that place.
     const BlockPlacement& placement = made.report.piece_setup.setup().placement;
     const auto recorded = orders.places.find(piece.name);
-    if (programs.place || (recorded != orders.places.end() && recorded->second == placement)) {
+    if (is_placed_again || (recorded != orders.places.end() && recorded->second == placement)) {
         for (WrittenJob& job : made.written) job.place = placement;
     }
     return made;
@@ -212,40 +240,75 @@ void record_jobs(Project& project, const Segmentation& segmentation, std::size_t
     project.jobs.insert(later, written.begin(), written.end());
 }
 
-// Jobs of pieces are written several at a time: of how many pieces, and the steps of the first one that is not done.
+// The programs that have to be made, the largest first, and in which order all jobs are written: these first.
+struct JobPlan {
+    std::vector<PlannedProgram> programs;
+    std::vector<std::size_t> order;  // of the pieces; the first ones are those of the programs
+};
+
+JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>& piece_setups) {
+    const std::size_t count = piece_setups.size();
+    std::vector<double> effort(count, 0);
+    const bool has_programs = none_because(orders).empty();
+    parallel_for(0, count, [&](std::size_t i) {
+        const PlacedSetup& piece_setup = *piece_setups[i];
+        const TriangleMesh& mesh = *orders.segmentation.pieces[i].mesh;
+        if (!has_programs || !piece_setup.fits() || is_only_sawn(piece_setup.setup(), mesh)) return;
+        std::error_code error;
+        if (fs::exists(kept_file(orders, job_input(orders, i, piece_setup)), error)) return;
+        effort[i] = program_effort(piece_setup.setup(), volume_mm3(mesh));
+    });
+    JobPlan plan;
+    for (std::size_t i = 0; i < count; ++i) plan.order.push_back(i);
+    std::stable_sort(plan.order.begin(), plan.order.end(),
+                     [&](std::size_t a, std::size_t b) { return effort[a] > effort[b]; });
+    for (const std::size_t i : plan.order) {
+        if (effort[i] > 0) plan.programs.push_back({orders.segmentation.pieces[i].name, effort[i]});
+    }
+    return plan;
+}
+
+// Of jobs that are written several at a time: the time of their programs, or the number of jobs where none is made.
 class JobProgress {
  public:
-    JobProgress(const Context& context, std::size_t count) : context_(context), is_done_(count, false) {
-        context.progress("jobs written", 0, count);
+    JobProgress(const Context& context, const JobPlan& plan)
+        : context_(context), programs_(context, plan.programs), made_(plan.programs.size()), count_(plan.order.size()) {
+        if (made_ == 0) context_.progress("jobs written", 0, count_);
+        if (made_ > 0) context_.message(describe(plan.programs));
     }
 
-    // For the work on one job, which is timed by itself.
-    Context of(std::size_t index, const std::string& piece, Timings* timings) {
+    // For the work on the job that is number `k` in the order of the plan, which is timed by itself.
+    Context of(std::size_t k, Timings* timings) {
         Context own = context_;
         own.timings = context_.timings == nullptr ? nullptr : timings;
-        own.on_progress = [this, index, piece](const Progress& step) {
-            const std::lock_guard lock(mutex_);
-            const std::size_t first = std::find(is_done_.begin(), is_done_.end(), false) - is_done_.begin();
-            if (index != first) return;
-            context_.progress(step.what + " for piece " + piece + " (" + std::to_string(done_ + 1) + " of " +
-                                  std::to_string(is_done_.size()) + ")",
-                              step.done, step.total);
-        };
-        return own;
+        own.on_progress = {};
+        return k < made_ ? programs_.of(k, own) : own;
     }
 
-    void finish(std::size_t index) {
-        const std::lock_guard lock(mutex_);
-        is_done_[index] = true;
-        context_.progress("jobs written", ++done_, is_done_.size());
+    void finish(std::size_t k) {
+        if (k < made_) programs_.finish(k);
+        if (made_ == 0) context_.progress("jobs written", ++done_, count_);
     }
 
  private:
     const Context& context_;
-    std::mutex mutex_;
-    std::vector<bool> is_done_;
+    ProgramProgress programs_;
+    std::size_t made_ = 0;
+    std::size_t count_ = 0;
     std::size_t done_ = 0;
 };
+
+void tell_kept(const std::vector<PieceReport>& reports, const Context& context) {
+    std::size_t kept = 0;
+    std::size_t made = 0;
+    for (const PieceReport& report : reports) {
+        if (report.has_kept_programs) ++kept;
+        if (!report.has_kept_programs && !report.verdicts.empty()) ++made;
+    }
+    if (kept == 0) return;
+    context.message("programs of " + counted(kept, "piece") + " kept from an earlier run, of " + std::to_string(made) +
+                    " made");
+}
 
 }  // namespace
 
@@ -271,19 +334,23 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     std::vector<MadeJob> made(count);
     const Project ordered = project;  // what the threads read, while the records change
     const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);
-    JobProgress progress(context, count);
+    const JobPlan plan = plan_jobs(orders, piece_setups);
+    JobProgress progress(context, plan);
     std::vector<RunTimes> times(count);
     std::mutex recording;
-    parallel_for(0, count, [&](std::size_t i) {
+    std::atomic<std::size_t> next = 0;
+    parallel_for(0, count, [&](std::size_t) {  // in the order of the plan, whatever that of the loop
         context.check_cancelled();
+        const std::size_t k = next++;
+        const std::size_t i = plan.order[k];
         Timings timings;
-        made[i] = make_job(orders, i, *piece_setups[i], progress.of(i, segmentation.pieces[i].name, &timings));
+        made[i] = make_job(orders, i, *piece_setups[i], progress.of(k, &timings));
         times[i] = timings.so_far();
         const std::lock_guard lock(recording);
         record_jobs(project, segmentation, i, made[i].written);
         save_project(folder, project);
         if (on_job) on_job(made[i].report);
-        progress.finish(i);
+        progress.finish(k);
     });
     stage.divide(times);
     std::vector<WrittenJob> all;
@@ -293,6 +360,8 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         reports.push_back(std::move(job.report));
     }
     project.jobs = std::move(all);  // no other job stays recorded
+    remove_oldest(folder / "cache", programs_ending, kept_per_piece * count);
+    tell_kept(reports, context);
     setups.set_places(recorded_places(project));
     return reports;
 }

@@ -36,8 +36,9 @@ struct PieceReport {
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it
     double length_mm = 0;
-    bool is_only_sawn = false;  // the saw alone makes it (cam/job/glue_faces.h)
-    bool is_proven() const;     // every part is; false without a program
+    bool has_kept_programs = false;  // an earlier run made and proved them (kept_programs.h)
+    bool is_only_sawn = false;       // the saw alone makes it (cam/job/glue_faces.h)
+    bool is_proven() const;          // every part is; false without a program
 };
 
 // Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell and the saw alone does not make

@@ -150,6 +150,12 @@ PostedProgram post(const Toolpath& path, const Drilling& drilling, const PlacedS
     return {post_krl(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
 }
 
+std::size_t bytes_of(const ProgramPart& part) {
+    std::size_t bytes = 0;
+    for (const ProgramText& file : part.files) bytes += file.text.size();
+    return bytes;
+}
+
 std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
     std::vector<std::size_t> numbers;
     for (const DrillHole& hole : drilling.holes) {
@@ -319,12 +325,17 @@ PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::u
     programs.caps = decided(std::move(caps), made.drilling);
     std::vector<JobCap> job_caps;
     for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
+    std::size_t all_bytes = 0;
+    for (const ProgramPart& part : posted.parts) all_bytes += bytes_of(part);
+    std::size_t bytes_read = 0;
     Bytes stock;  // what the part before left
     while (programs.parts.size() < posted.parts.size()) {
         ProvenProgram proven;
         proven.input = program_of(posted, programs.parts.size() + 1, made, *planned.machine, settings);
         proven.input.stock = std::move(stock);
         const StageTimer stage(context, "programs replayed");
+        bytes_read += bytes_of(posted.parts[programs.parts.size()]);
+        context.progress("bytes of the program read", bytes_read, all_bytes);
         ProofInput proof{cell,
                          setup,
                          frames,

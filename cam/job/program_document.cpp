@@ -127,6 +127,16 @@ void put_schema(Json& at, const JobProgram& program) {
     put_schema<JobProgram>(at, program);
 }
 
+std::string to_json(const JobProgram& program) {
+    return to_document(program);
+}
+
+JobProgram job_program_from_json(std::string_view text) {
+    JobProgram program;
+    from_document(text, program);
+    return program;
+}
+
 std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps) {
     const std::vector<std::size_t> drilled = program ? program->holes : std::vector<std::size_t>{};
     std::vector<std::size_t> by_robot;

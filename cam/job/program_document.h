@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/files/file.h"
 #include "cam/job/job_cap.h"
@@ -24,6 +25,11 @@ void put(nlohmann::ordered_json& at, const JobProgram& program);
 void take(const nlohmann::ordered_json& json, const std::string& key, JobProgram& program);
 
 void put_schema(nlohmann::ordered_json& at, const JobProgram& program);
+
+// The same as a text of its own. What is read back is the same program; not of exactly such a text: throws
+// std::runtime_error.
+std::string to_json(const JobProgram& program);
+JobProgram job_program_from_json(std::string_view text);
 
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.

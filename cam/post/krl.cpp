@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <optional>
 
 #include "base/text.h"
@@ -14,6 +15,10 @@
 
 namespace qchopper {
 namespace {
+
+std::string name_of(std::uint32_t piece) {
+    return "qc_" + std::to_string(piece);
+}
 
 // Names of one piece.
 struct Names {
@@ -184,14 +189,48 @@ PostedChunk listed(const Program& program, const Cell& cell, const WrittenChunk&
     return posted;
 }
 
+// Whether the text goes on at `at` with a name of the piece: alone, or with a part or a chunk behind it.
+bool is_name_at(const std::string& text, std::size_t at, const std::string& piece) {
+    if (text.compare(at, piece.size(), piece) != 0) return false;
+    const std::size_t end = at + piece.size();
+    return end == text.size() || std::isalnum(static_cast<unsigned char>(text[end])) == 0;
+}
+
 }  // namespace
+
+std::string renumbered_name(const std::string& file, std::uint32_t from, std::uint32_t to) {
+    const std::string piece = name_of(from);
+    return is_name_at(file, 0, piece) ? name_of(to) + file.substr(piece.size()) : file;
+}
+
+// Names stand at the beginning of a line, where a chunk is called, and behind DEF and DEFDAT.
+std::string renumbered_text(const std::string& text, std::uint32_t from, std::uint32_t to) {
+    const std::string piece = name_of(from);
+    std::string renumbered;
+    renumbered.reserve(text.size());
+    for (std::size_t line = 0; line < text.size();) {
+        std::size_t at = line;
+        for (const std::string_view before : {"DEF ", "DEFDAT "}) {
+            if (text.compare(line, before.size(), before) == 0) at = line + before.size();
+        }
+        const std::size_t end = std::min(text.find('\n', line), text.size() - 1) + 1;
+        renumbered.append(text, line, at - line);
+        if (is_name_at(text, at, piece)) {
+            renumbered += name_of(to);
+            at += piece.size();
+        }
+        renumbered.append(text, at, end - at);
+        line = end;
+    }
+    return renumbered;
+}
 
 std::vector<ProgramPart> post_krl(const Program& program, const Cell& cell, const ProgramName& name) {
     assert(cell.machine && !program.operations.empty());
     if (cell.machine->program.dialect != Dialect::krl) throw NoPostYet(cell.machine->program.dialect);
     check_signals(*cell.machine);
     const KrlChunks chunks(program, cell);
-    Names names{"qc_" + std::to_string(name.piece)};
+    Names names{name_of(name.piece)};
     const std::vector<RunRange> ranges = chunk_ranges(program, chunks, cell.machine->program);
     std::vector<WrittenChunk> all;
     for (std::size_t i = 0; i < ranges.size(); ++i) {

@@ -49,6 +49,12 @@ struct ProgramName {
     std::uint32_t piece = 1;  // number of the piece: names are qc_<piece>, qc_<piece>_p<part>, qc_<piece>_<chunk>
 };
 
+// The name of a file, and its text, that post_krl writes of the same program for a piece of another number of as many
+// digits; with more digits a program may be divided elsewhere. Preconditions: both are of one that it wrote for the
+// piece `from` (tests/cam/post/krl_test.cpp). O(bytes).
+std::string renumbered_name(const std::string& file, std::uint32_t from, std::uint32_t to);
+std::string renumbered_text(const std::string& text, std::uint32_t from, std::uint32_t to);
+
 // Thrown for a cell whose controller has a language that no post writes yet.
 class NoPostYet : public InputError {
  public:

@@ -42,4 +42,14 @@ void keep(const fs::path& file, const CacheWriter& content) {
     }
 }
 
+void remove_oldest(const fs::path& folder, const std::string& extension, std::size_t count) {
+    std::error_code error;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        if (entry.path().extension() == extension) files.emplace_back(entry.last_write_time(error), entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    for (std::size_t i = 0; i + count < files.size(); ++i) fs::remove(files[i].second, error);
+}
+
 }  // namespace qchopper

@@ -102,4 +102,7 @@ std::optional<Bytes> kept(const std::filesystem::path& file);
 // Makes the folder when needed. What cannot be written is not kept: a full disk costs time, not work.
 void keep(const std::filesystem::path& file, const CacheWriter& content);
 
+// Removes the files of this ending that were written first, so that `count` stay. Throws nothing.
+void remove_oldest(const std::filesystem::path& folder, const std::string& extension, std::size_t count);
+
 }  // namespace qchopper

@@ -1,19 +1,15 @@
-// Programs that an earlier run left are taken again only if nothing that they were made from has changed.
+// Programs that an earlier run made are taken again only if nothing that they were made from has changed.
 
 #include "app/jobs/kept_programs.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <functional>
 
-#include "app/jobs/job_verdict.h"
+#include "app/store/caches/cache_file.h"
 #include "base/files/file.h"
 #include "base/files/temporary_folder.h"
-#include "cam/job/envelope_document.h"
 #include "cam/job/job_caps.h"
-#include "cam/job/job_program.h"
-#include "cam/job/read_job.h"
-#include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"
 
 namespace qchopper {
@@ -21,127 +17,180 @@ namespace {
 
 using namespace test_pieces;
 
-// A folder with the two jobs of a piece whose program has two parts, each with its verdict.
+ProvenProgram part_of(std::uint16_t number) {
+    ProvenProgram part;
+    JobProgram& program = part.input.program;
+    program.entry = "qc_2_p" + std::to_string(number) + ".src";
+    const std::string chunk = "qc_2_00" + std::to_string(number) + ".src";
+    program.files = {program.entry, chunk};
+    if (number == 2) program.holes = {1};
+    program.moves_left_out = {6, "operation 2: link 5"};
+    program.chunks = {{chunk, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {1.0 / 3, 0, 0}, {1, 1, 60}}};
+    program.part = {number, 2, {}};
+    part.input.texts = {{program.entry, "DEF qc_2_p1( )\r\n;qc_2\r\nqc_2_001( )\r\n"}, {chunk, "DEF qc_2_001( )\r\n"}};
+    part.input.proof.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
+    part.input.proof.time.resize(1);
+    part.input.proof.time[0].operation = "roughing";
+    part.input.proof.time[0].cutting_s = 77;
+    part.input.tools = {7};
+    part.input.deviation_picture = {1, 2, static_cast<std::uint8_t>(number)};
+    if (number == 2) part.input.stock = {9, 8};
+    static_cast<ProofResult&>(part.proof) = part.input.proof;
+    part.proof.chunks = program.chunks;
+    part.proof.time_s = 77.25;
+    part.proof.length_mm = 1500.125;
+    return part;
+}
+
+// A piece whose program has two parts, kept in a folder.
 class KeptPrograms : public testing::Test {
  protected:
     void SetUp() override {
-        input_ = tilting_job(3);
-        caps_ = {capped(input_, 2)};
-        input_.caps = caps_;
-        envelope_ = envelope_document(input_);
-        decide_holes(input_.caps, {1}, {}, "the arm does not hold it");
-        Sha256 before;
-        for (std::uint16_t part = 1; part <= 2; ++part) before = write(part, before);
+        job_ = tilting_job(3);
+        job_.caps = {capped(job_, 2)};
+        made_.caps = job_.caps;
+        decide_holes(made_.caps, {1}, {}, "the arm does not hold it");
+        made_.parts = {part_of(1), part_of(2)};
+        keep_programs(file(job_), {job_, cell_}, made_);
     }
 
-    Sha256 write(std::uint16_t part, const Sha256& before) {
-        ProgramInput program;
-        program.program.entry = "qc_2_p" + std::to_string(part) + ".src";
-        program.program.files = {program.program.entry};
-        if (part == 2) program.program.holes = {1};
-        program.program.moves_left_out = {6, "operation 2: link 5"};
-        program.program.chunks = {{program.program.entry, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {}, {1, 1, 60}}};
-        program.program.part = {part, 2, part > 1 ? std::optional(before) : std::nullopt};
-        program.texts[program.program.entry] = "DEF part " + std::to_string(part);
-        program.proof.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
-        program.proof.time.resize(1);
-        program.proof.time[0].operation = "roughing";
-        program.proof.time[0].cutting_s = 77;
-        program.tools = {7};
-        program.deviation_picture = {1, 2, part < 2 ? std::uint8_t{3} : std::uint8_t{4}};
-        input_.program = program;
-        const Bytes bytes = job_file(input_);
-        write_file(file(part), bytes);
-        JobVerdict verdict;
-        verdict.job_sha256 = sha256(bytes);
-        verdict.cell_sha256 = cell_;
-        verdict.program_version = version_;
-        verdict.figures = program.proof.figures;
-        verdict.time = program.proof.time;
-        verdict.notes = {describe(program.program.moves_left_out)};
-        verdict.is_positive = true;
-        write_verdict(file(part), verdict);
-        return verdict.job_sha256;
+    std::filesystem::path file(const JobInput& job) const { return programs_file(folder_.path(), {job, cell_}); }
+    std::optional<PiecePrograms> kept(const JobInput& job) const { return kept_programs(file(job), {job, cell_}); }
+    bool is_kept_after(const std::function<void(JobInput&)>& change) const {
+        JobInput job = job_;
+        change(job);
+        return kept(job).has_value();
     }
-
-    std::filesystem::path file(std::uint16_t part) const { return folder_.path() / job_file_name("AB", part); }
-    ProgramSource source() const {
-        return {input_.piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, version_};
-    }
-    bool is_kept(const ProgramSource& source) const { return kept_programs(folder_.path(), source).has_value(); }
 
     TemporaryFolder folder_{"qchopper-kept-"};
-    JobInput input_;
-    std::string envelope_;
+    JobInput job_;
+    PiecePrograms made_;
     Sha256 cell_ = sha256({});
-    std::string version_ = "0.1.0";
-    std::vector<DrawnCap> caps_;  // of two holes, as before the program
 };
 
-TEST_F(KeptPrograms, AreThoseThatWereWritten) {
-    const std::optional<PiecePrograms> kept = kept_programs(folder_.path(), source());
-    ASSERT_TRUE(kept);
-    ASSERT_EQ(kept->parts.size(), 2U);
-    const ProvenProgram& last = kept->parts[1];
-    EXPECT_EQ(last.input.texts.at("qc_2_p2.src"), "DEF part 2");
-    EXPECT_EQ(last.input.deviation_picture, (Bytes{1, 2, 4}));
-    EXPECT_FALSE(last.input.program.part.before);
-    EXPECT_EQ(last.input.program.part.number, 2);
-    EXPECT_EQ(last.input.tools, std::vector<std::uint16_t>{7});
-    EXPECT_TRUE(last.proof.is_proven());
-    EXPECT_EQ(last.input.program.holes, std::vector<std::size_t>{1});
-    ASSERT_EQ(kept->caps.size(), 1U);
-    EXPECT_EQ(kept->caps[0].cap, input_.caps[0].cap) << "who drills each hole is known again";
-    EXPECT_EQ(last.input.program.moves_left_out, (MovesLeftOut{6, "operation 2: link 5"}));
-    ASSERT_EQ(last.proof.notes.size(), 1U) << "what is left out is said again";
-    EXPECT_NE(last.proof.notes.front().find("6 mm of its cuts: operation 2: link 5"), std::string::npos);
-    EXPECT_EQ(last.proof.time_s, 77);
-    EXPECT_EQ(last.proof.time, input_.program->proof.time);
-    EXPECT_EQ(last.proof.length_mm, 1500);
-    ProgramInput again = last.input;
-    again.program.part.before = input_.program->program.part.before;
-    JobInput same = input_;
-    same.program = again;
-    EXPECT_TRUE(job_file(same) == job_file(input_)) << "the same bytes come of it";
+void expect_same(const ProvenProgram& a, const ProvenProgram& b) {
+    EXPECT_EQ(a.input.program, b.input.program);
+    EXPECT_EQ(a.input.texts, b.input.texts);
+    EXPECT_EQ(a.input.tools, b.input.tools);
+    EXPECT_EQ(a.input.proof, b.input.proof);
+    EXPECT_EQ(a.input.deviation_picture, b.input.deviation_picture);
+    EXPECT_EQ(a.input.stock, b.input.stock);
+    EXPECT_EQ(static_cast<const ProofResult&>(a.proof), b.proof);
+    EXPECT_EQ(a.proof.chunks, b.proof.chunks);
+    EXPECT_EQ(a.proof.time_s, b.proof.time_s);
+    EXPECT_EQ(a.proof.length_mm, b.proof.length_mm);
+}
+
+TEST_F(KeptPrograms, AreThoseThatWereMade) {
+    const std::optional<PiecePrograms> found = kept(job_);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->parts.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) expect_same(found->parts[i], made_.parts[i]);
+    ASSERT_EQ(found->caps.size(), 1U);
+    EXPECT_EQ(found->caps[0].cap, made_.caps[0].cap) << "who drills each hole is known again";
+    EXPECT_FALSE(found->place);
+    made_.place = BlockPlacement{1.0 / 3, -2, 0.5, {1, 2}};
+    made_.parts.clear();
+    made_.none_because = "no arm reaches it";
+    keep_programs(file(job_), {job_, cell_}, made_);
+    const std::optional<PiecePrograms> none = kept(job_);
+    ASSERT_TRUE(none) << "that there is none takes as long to find";
+    EXPECT_EQ(none->place, made_.place);
+    EXPECT_EQ(none->none_because, made_.none_because);
+    EXPECT_TRUE(none->parts.empty());
 }
 
 TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
-    EXPECT_TRUE(is_kept(source()));
-    qchopper::Setup setup = input_.setup;
-    setup.placement.x += 1;
-    EXPECT_FALSE(is_kept({input_.piece, setup, envelope_, input_.piece_no, caps_, cell_, version_}));
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, 3, caps_, cell_, version_}));
+    EXPECT_TRUE(is_kept_after([](JobInput&) {}));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) { job.setup.placement.x += 1; }));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) { job.setup.access.orientations[1].tool_axis.x += 1e-9; }));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) { job.program_version = "0.2.0"; }));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) { job.piece.half_spaces[0].plane.offset += 1e-9; }));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) { job.caps[0].cap.joints[0].holes[0].depth += 1; }));
+    EXPECT_FALSE(is_kept_after([](JobInput& job) {
+        TriangleMesh mesh = *job.piece.mesh;
+        mesh.points.front().x += 1e-9;
+        job.piece.mesh = std::make_shared<const TriangleMesh>(mesh);
+    }));
+    // The same setup, held by another arm configuration: its program is another one.
+    const JobInput held = placed_job();
+    keep_programs(file(held), {held, cell_}, made_);
+    JobInput other = held;
+    EXPECT_TRUE(kept(other));
+    bool& is_back = other.machine_reachability.regions.front().configuration.is_back;
+    is_back = !is_back;
+    EXPECT_FALSE(kept(other));
+
     Sha256 other_cell = cell_;
     other_cell.bytes[0] ^= 1U;
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, other_cell, version_}));
-    const std::string newer = "0.2.0";
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, newer}));
-    // The same setup, held by another arm configuration: its program is another one.
-    JobInput held = placed_job();
-    const std::string other_envelope = envelope_document(held);
-    held.machine_reachability.regions.front().configuration.is_back =
-        !held.machine_reachability.regions.front().configuration.is_back;
-    EXPECT_NE(envelope_document(held), other_envelope);
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, other_envelope, input_.piece_no, caps_, cell_, version_}));
-    Piece piece = input_.piece;
-    TriangleMesh mesh = *piece.mesh;
-    mesh.points.front().x += 0.01;
-    piece.mesh = std::make_shared<const TriangleMesh>(mesh);
-    EXPECT_FALSE(is_kept({piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, version_}));
-    std::vector<DrawnCap> other_hole = caps_;
-    other_hole[0].cap.joints[0].holes[0].depth += 1;
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, other_hole, cell_, version_}));
+    EXPECT_NE(programs_file(folder_.path(), {job_, other_cell}), file(job_));
+    EXPECT_NE(programs_file(folder_.path(), {job_, cell_, FineTools::all}), file(job_));
 }
 
-TEST_F(KeptPrograms, AreMadeAgainWhereAFileIsMissingOrDamaged) {
-    std::filesystem::remove(verdict_file(file(1)));
-    EXPECT_FALSE(is_kept(source()));
-    write(1, {});
-    EXPECT_TRUE(is_kept(source()));
-    std::ofstream(file(2), std::ios::app) << "x";
-    EXPECT_FALSE(is_kept(source()));
-    std::filesystem::remove(file(2));
-    EXPECT_FALSE(is_kept(source()));
+// What another decision changes in the job of a piece that it leaves alone.
+TEST_F(KeptPrograms, StayWhereOtherPiecesChange) {
+    EXPECT_TRUE(is_kept_after([](JobInput& job) {
+        job.piece_count = 9;
+        job.project_id[0] ^= 1U;
+        job.warnings = {"another one"};
+        job.caps[0].cap.joints[0].neighbour = "Z";
+    }));
+}
+
+TEST_F(KeptPrograms, AreTakenForAnotherNumberOfThePiece) {
+    JobInput third = job_;
+    third.piece_no = 3;
+    const std::optional<PiecePrograms> found = kept(third);
+    ASSERT_TRUE(found);
+    const ProgramInput& first = found->parts[0].input;
+    EXPECT_EQ(first.program.entry, "qc_3_p1.src");
+    EXPECT_EQ(first.program.files, (std::vector<std::string>{"qc_3_p1.src", "qc_3_001.src"}));
+    EXPECT_EQ(first.program.chunks[0].file, "qc_3_001.src");
+    EXPECT_EQ(found->parts[0].proof.chunks, first.program.chunks);
+    EXPECT_EQ(first.texts.at("qc_3_p1.src"), "DEF qc_3_p1( )\r\n;qc_2\r\nqc_3_001( )\r\n") << "a comment is no name";
+    third.piece_no = third.piece_count = 12;
+    EXPECT_FALSE(kept(third)) << "longer names: the program may be divided elsewhere";
+    third.piece_no = 3;
+    made_.parts[1].proof.findings.push_back({"gouge", "qc_2_002.src", 3, "too deep"});
+    made_.parts[1].input.proof = made_.parts[1].proof;
+    keep_programs(file(job_), {job_, cell_}, made_);
+    EXPECT_TRUE(kept(job_));
+    EXPECT_FALSE(kept(third)) << "a finding names a file";
+}
+
+TEST_F(KeptPrograms, AreMadeAgainWhereTheirFileIsMissingOrDamaged) {
+    const Bytes whole = read_file(file(job_));
+    for (const std::size_t at : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
+        Bytes damaged = whole;
+        damaged[at] ^= 1U;
+        write_file(file(job_), damaged);
+        EXPECT_FALSE(kept(job_)) << at;
+    }
+    write_file(file(job_), Bytes(whole.begin(), whole.begin() + 100));
+    EXPECT_FALSE(kept(job_));
+    write_file(file(job_), whole);
+    EXPECT_TRUE(kept(job_));
+    std::filesystem::remove(file(job_));
+    EXPECT_FALSE(kept(job_));
+}
+
+TEST_F(KeptPrograms, TheOldestAreRemoved) {
+    using std::filesystem::exists;
+    using std::filesystem::last_write_time;
+    JobInput other = job_;
+    other.setup.placement.x += 1;
+    keep_programs(file(other), {other, cell_}, made_);
+    write_file(folder_.path() / "x.stress", "another kind");
+    const auto now = std::filesystem::file_time_type::clock::now();
+    last_write_time(file(job_), now - std::chrono::hours(2));
+    last_write_time(file(other), now - std::chrono::hours(1));
+    remove_oldest(folder_.path(), programs_ending, 2);
+    EXPECT_TRUE(exists(file(job_)) && exists(file(other)));
+    EXPECT_TRUE(kept(job_)) << "it was taken, and is now the newest";
+    remove_oldest(folder_.path(), programs_ending, 1);
+    EXPECT_TRUE(exists(file(job_)));
+    EXPECT_FALSE(exists(file(other)));
+    EXPECT_TRUE(exists(folder_.path() / "x.stress"));
 }
 
 }  // namespace

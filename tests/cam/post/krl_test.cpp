@@ -441,5 +441,25 @@ TEST(PostKrl, RefusesValuesThatNoProgramMayHave) {
     EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
 }
 
+TEST(PostKrl, ForAnotherNumberOfThePieceOtherNamesAreAllThatChanges) {
+    for (const Job& job : jobs()) {
+        const Program program = program_of(job);
+        const std::vector<ProgramPart> first = post_krl(program, job.cell, {7});
+        const std::vector<ProgramPart> second = post_krl(program, job.cell, {8});
+        ASSERT_EQ(first.size(), second.size());
+        for (std::size_t p = 0; p < first.size(); ++p) {
+            EXPECT_EQ(renumbered_name(first[p].entry, 7, 8), second[p].entry);
+            ASSERT_EQ(first[p].files.size(), second[p].files.size());
+            for (std::size_t i = 0; i < first[p].files.size(); ++i) {
+                EXPECT_NE(first[p].files[i].text, second[p].files[i].text);
+                EXPECT_EQ(renumbered_name(first[p].files[i].name, 7, 8), second[p].files[i].name);
+                EXPECT_EQ(renumbered_text(first[p].files[i].text, 7, 8), second[p].files[i].text);
+            }
+        }
+    }
+    EXPECT_EQ(renumbered_name("qc_71.src", 7, 8), "qc_71.src");
+    EXPECT_EQ(renumbered_text("qc_71_001( )\r\nqc_7x( )\r\n;qc_7", 7, 8), "qc_71_001( )\r\nqc_7x( )\r\n;qc_7");
+}
+
 }  // namespace
 }  // namespace qchopper

@@ -1,0 +1,145 @@
+// prepare makes again only the programs of pieces that have changed, and its outputs are the same either way.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "app/engine/prepare_project.h"
+#include "app/jobs/kept_programs.h"
+#include "base/files/file.h"
+#include "segment/io/write_mesh.h"
+#include "tests/app/ball_cap.h"
+#include "tests/folder.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two caps of balls beside each other are two pieces without a cut, A and the larger B.
+TriangleMesh two_caps() {
+    TriangleMesh both = ball_cap();
+    const TriangleMesh other = ball_cap();
+    const auto first = static_cast<std::uint32_t>(both.points.size());
+    for (const Vec3& p : other.points) both.points.push_back({1.15 * p.x + 200, 1.15 * p.y, 1.15 * p.z});
+    for (const Triangle& t : other.triangles) both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return both;
+}
+
+class KeptWork : public testing::Test {
+ protected:
+    void SetUp() override {
+        write_file(folder_.path / "scan.ply", to_ply(two_caps()));
+        ProjectChoices choices;
+        choices.scan = folder_.path / "scan.ply";
+        choices.mm_per_unit = 1;
+        choices.settings.stop.min_cuts = 0;
+        choices.folder = project_;
+        choices.cell_file = fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml";
+        made(prepare_scan(choices, {"1.0", {}, true}, context()));
+    }
+
+    ProjectContext context() {
+        messages_.clear();
+        ProjectContext context;
+        context.on_message = [this](const std::string& line) { messages_ += line + "\n"; };
+        return context;
+    }
+
+    // The pieces of which a run made the programs; all have some.
+    std::string made(const PreparedProject& prepared) {
+        std::string names;
+        for (const PieceReport& piece : prepared.pieces) {
+            EXPECT_TRUE(piece.is_proven()) << piece.name << ": " << piece.no_program_because;
+            if (!piece.has_kept_programs) names += piece.name;
+        }
+        return names;
+    }
+    std::string made_again(const PrepareOptions& options = {"1.0", {}}) {
+        return made(prepare_project(project_, {}, options, context()));
+    }
+
+    // The folder of jobs, and project.json.
+    std::map<std::string, Bytes> outputs() const {
+        std::map<std::string, Bytes> files{{"project.json", read_file(project_ / "project.json")}};
+        for (const auto& entry : fs::directory_iterator(project_ / "jobs")) {
+            files[entry.path().filename().string()] = read_file(entry.path());
+        }
+        return files;
+    }
+
+    void change(const std::function<void(OpenProject&)>& decide) {
+        LockedProject open(project_, {}, {});
+        decide(open.project);
+    }
+    std::vector<fs::path> kept_files() const {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(project_ / "cache")) {
+            if (entry.path().extension() == programs_ending) files.push_back(entry.path());
+        }
+        return files;
+    }
+
+    Folder folder_;
+    fs::path project_ = folder_.path / "p.qch";
+    std::string messages_;
+};
+
+TEST_F(KeptWork, AChangeOfOnePieceMakesOneProgram) {
+    EXPECT_NE(messages_.find("programs to make, the largest first: B (estimated at "), std::string::npos) << messages_;
+    const auto first = outputs();
+    EXPECT_EQ(made_again(), "") << "nothing has changed";
+    EXPECT_NE(messages_.find("programs of 2 pieces kept from an earlier run, of 0 made"), std::string::npos)
+        << messages_;
+    EXPECT_EQ(outputs(), first);
+
+    SetupOrder order;
+    order.piece = "B";
+    order.max_directions = 1;
+    change([&](OpenProject& project) { EXPECT_TRUE(project.decide_setup(order)); });
+    EXPECT_EQ(made_again(), "B");
+    EXPECT_NE(messages_.find("programs of 1 piece kept from an earlier run, of 1 made"), std::string::npos)
+        << messages_;
+    EXPECT_NE(outputs().at("B.qjob"), first.at("B.qjob"));
+    EXPECT_EQ(outputs().at("A.qjob"), first.at("A.qjob"));
+    change([](OpenProject& project) { EXPECT_TRUE(project.undo()); });
+    EXPECT_EQ(made_again(), "") << "that of before is still there";
+    EXPECT_EQ(outputs().at("B.qjob"), first.at("B.qjob"));
+}
+
+// B is then the first of one piece: names in its program change, and nothing else.
+TEST_F(KeptWork, APieceOfAnotherNumberHasTheBytesOfANewProgram) {
+    PrepareOptions options{"1.0", {}};
+    options.discard = DiscardRequest{{"A"}, {}};
+    EXPECT_EQ(made_again(options), "");
+    const auto kept = outputs();
+    fs::remove_all(project_ / "cache");
+    EXPECT_EQ(made_again(), "B");
+    EXPECT_EQ(outputs(), kept);
+}
+
+TEST_F(KeptWork, ADamagedFileIsNotTaken) {
+    const auto first = outputs();
+    ASSERT_EQ(kept_files().size(), 2U);
+    for (const fs::path& file : kept_files()) {
+        Bytes bytes = read_file(file);
+        bytes[bytes.size() / 2] ^= 1U;
+        write_file(file, bytes);
+    }
+    EXPECT_EQ(made_again(), "AB");
+    EXPECT_EQ(outputs(), first);
+}
+
+TEST_F(KeptWork, AnotherCellFileMakesAllAgain) {
+    const Bytes cell = read_file(project_ / "cell.toml");
+    std::string text(cell.begin(), cell.end());
+    const std::string before = "tool_change = \"stop\"\n";  // what follows is seen by no setup
+    ASSERT_NE(text.find(before), std::string::npos);
+    text.replace(text.find(before), before.size(), before + "tool_change_time = 61.0\n");
+    write_file(project_ / "cell.toml", text);
+    EXPECT_EQ(made_again(), "AB");
+}
+
+}  // namespace
+}  // namespace qchopper
