@@ -1,8 +1,7 @@
 // Effort is a sum of volume and area for every orientation, with measured coefficients, because stock and piece are
-// looked at along each. While programs are
-// made their steps say how far they are, by the shares of the time that steps take. The rate is that of the work done
-// so far, the rest a list schedule (Graham, "Bounds on multiprocessing timing anomalies", 1969): whatever is left goes
-// to the worker that is free first. O(programs) per report.
+// looked at along each. While programs are made their steps say how far they are, by the shares of the time that steps
+// take. The rate is that of the work done so far, the rest a list schedule (Graham, "Bounds on multiprocessing timing
+// anomalies", 1969): whatever is left goes to the worker that is free first. O(programs) per report.
 
 #include "app/jobs/program_effort.h"
 
@@ -29,7 +28,7 @@ struct Step {
     double from = 0;
     double to = 0;
 };
-constexpr double made = 0.33;  // share of toolpath and program
+constexpr double made = 0.5;  // share of toolpath and program
 constexpr Step toolpath_step{"operations of the toolpath", 0, 0.97};
 constexpr std::string_view carving = "moves carved";
 constexpr std::array proof_steps{Step{"steps of the program followed", 0, 0.01}, Step{carving, 0.01, 0.75},

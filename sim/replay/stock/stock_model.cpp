@@ -177,7 +177,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     double length = 0;
     const CellRange cells = sweep.cells();
     const double least = sweep.least();
-    const auto cut_foam = [&](DexelTile& tile, TileCell at, double z) {
+    const auto lower_column = [&](DexelTile& tile, TileCell at, double z) {
         const std::size_t cell = at.cell;
         columns.know(tile, at, z - known_below);
         const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
@@ -205,8 +205,8 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
                 if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;
                 for (std::size_t k = 0; k < z.size(); ++k) {
                     const std::size_t cell = first + k;
-                    const bool is_foam = tile.high[cell] > z[k] && tile.low[cell] < tile.high[cell];
-                    if (is_foam && z[k] < tile.cut[cell]) cut_foam(tile, {tx, ty, cell}, z[k]);
+                    const bool stands = tile.high[cell] > z[k] && tile.low[cell] < tile.high[cell];
+                    if (stands && z[k] < tile.cut[cell]) lower_column(tile, {tx, ty, cell}, z[k]);
                 }
                 tile.lower_cuts(first, z);
             }

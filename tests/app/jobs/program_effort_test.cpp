@@ -77,13 +77,12 @@ TEST(ProgramProgress, FindsTheTimeLeftFromTheStepsOfThoseUnderWay) {
     second.progress("bytes of the program read", 1000, 1000);
     second.progress("moves carved", 0, 10);
     second.progress("a step that nobody knows", 9, 10);
-    // 0.97 of 0.33 of 60, and 0.33 and a hundredth of 0.67 of 30 are done in twice 10 s. One worker has the rest of E,
+    // 0.97 of 0.5 of 60, and 0.5 and a hundredth of 0.5 of 30 are done in twice 10 s. One worker has the rest of E,
     // the other one that of F and then D.
-    const double done = 0.97 * 0.33 * 60 + (0.33 + 0.01 * 0.67) * 30;
+    const double done = 0.97 * 0.5 * 60 + (0.5 + 0.01 * 0.5) * 30;
     const double rate = done / 20;
     const double share = progress.share(start + std::chrono::seconds(10));
-    EXPECT_NEAR(seconds_left(share, 10), std::max(60 * (1 - 0.97 * 0.33), 30 * (1 - 0.33 - 0.01 * 0.67) + 30) / rate,
-                0.1);
+    EXPECT_NEAR(seconds_left(share, 10), std::max(60 * (1 - 0.97 * 0.5), 30 * (1 - 0.5 - 0.01 * 0.5) + 30) / rate, 0.1);
     // Two parts, of which the first is nearly all.
     first.progress("bytes of the program read", 900, 1000);
     first.progress("rows of the volume measured", 10, 10);
