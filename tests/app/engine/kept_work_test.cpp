@@ -30,20 +30,20 @@ TriangleMesh two_caps() {
 class KeptWork : public testing::Test {
  protected:
     void SetUp() override {
-        write_file(folder_.path / "scan.ply", to_ply(two_caps()));
+        write_file(temporary.path / "scan.ply", to_ply(two_caps()));
         ProjectChoices choices;
-        choices.scan = folder_.path / "scan.ply";
+        choices.scan = temporary.path / "scan.ply";
         choices.mm_per_unit = 1;
         choices.settings.stop.min_cuts = 0;
-        choices.folder = project_;
+        choices.folder = project_folder;
         choices.cell_file = fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml";
         made(prepare_scan(choices, {"1.0", {}, true}, context()));
     }
 
     ProjectContext context() {
-        messages_.clear();
+        messages.clear();
         ProjectContext context;
-        context.on_message = [this](const std::string& line) { messages_ += line + "\n"; };
+        context.on_message = [this](const std::string& line) { messages += line + "\n"; };
         return context;
     }
 
@@ -57,41 +57,40 @@ class KeptWork : public testing::Test {
         return names;
     }
     std::string made_again(const PrepareOptions& options = {"1.0", {}}) {
-        return made(prepare_project(project_, {}, options, context()));
+        return made(prepare_project(project_folder, {}, options, context()));
     }
 
     // The folder of jobs, and project.json.
     std::map<std::string, Bytes> outputs() const {
-        std::map<std::string, Bytes> files{{"project.json", read_file(project_ / "project.json")}};
-        for (const auto& entry : fs::directory_iterator(project_ / "jobs")) {
+        std::map<std::string, Bytes> files{{"project.json", read_file(project_folder / "project.json")}};
+        for (const auto& entry : fs::directory_iterator(project_folder / "jobs")) {
             files[entry.path().filename().string()] = read_file(entry.path());
         }
         return files;
     }
 
     void change(const std::function<void(OpenProject&)>& decide) {
-        LockedProject open(project_, {}, {});
+        LockedProject open(project_folder, {}, {});
         decide(open.project);
     }
     std::vector<fs::path> kept_files() const {
         std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(project_ / "cache")) {
+        for (const auto& entry : fs::directory_iterator(project_folder / "cache")) {
             if (entry.path().extension() == programs_ending) files.push_back(entry.path());
         }
         return files;
     }
 
-    Folder folder_;
-    fs::path project_ = folder_.path / "p.qch";
-    std::string messages_;
+    Folder temporary;
+    fs::path project_folder = temporary.path / "p.qch";
+    std::string messages;
 };
 
 TEST_F(KeptWork, AChangeOfOnePieceMakesOneProgram) {
-    EXPECT_NE(messages_.find("programs to make, the largest first: B (estimated at "), std::string::npos) << messages_;
+    EXPECT_NE(messages.find("programs to make, the largest first: B (estimated at "), std::string::npos) << messages;
     const auto first = outputs();
     EXPECT_EQ(made_again(), "") << "nothing has changed";
-    EXPECT_NE(messages_.find("programs of 2 pieces kept from an earlier run, of 0 made"), std::string::npos)
-        << messages_;
+    EXPECT_NE(messages.find("programs of 2 pieces kept from an earlier run, of 0 made"), std::string::npos) << messages;
     EXPECT_EQ(outputs(), first);
 
     SetupOrder order;
@@ -99,8 +98,7 @@ TEST_F(KeptWork, AChangeOfOnePieceMakesOneProgram) {
     order.max_directions = 1;
     change([&](OpenProject& project) { EXPECT_TRUE(project.decide_setup(order)); });
     EXPECT_EQ(made_again(), "B");
-    EXPECT_NE(messages_.find("programs of 1 piece kept from an earlier run, of 1 made"), std::string::npos)
-        << messages_;
+    EXPECT_NE(messages.find("programs of 1 piece kept from an earlier run, of 1 made"), std::string::npos) << messages;
     EXPECT_NE(outputs().at("B.qjob"), first.at("B.qjob"));
     EXPECT_EQ(outputs().at("A.qjob"), first.at("A.qjob"));
     change([](OpenProject& project) { EXPECT_TRUE(project.undo()); });
@@ -114,7 +112,7 @@ TEST_F(KeptWork, APieceOfAnotherNumberHasTheBytesOfANewProgram) {
     options.discard = DiscardRequest{{"A"}, {}};
     EXPECT_EQ(made_again(options), "");
     const auto kept = outputs();
-    fs::remove_all(project_ / "cache");
+    fs::remove_all(project_folder / "cache");
     EXPECT_EQ(made_again(), "B");
     EXPECT_EQ(outputs(), kept);
 }
@@ -132,12 +130,12 @@ TEST_F(KeptWork, ADamagedFileIsNotTaken) {
 }
 
 TEST_F(KeptWork, AnotherCellFileMakesAllAgain) {
-    const Bytes cell = read_file(project_ / "cell.toml");
+    const Bytes cell = read_file(project_folder / "cell.toml");
     std::string text(cell.begin(), cell.end());
     const std::string before = "tool_change = \"stop\"\n";  // what follows is seen by no setup
     ASSERT_NE(text.find(before), std::string::npos);
     text.replace(text.find(before), before.size(), before + "tool_change_time = 61.0\n");
-    write_file(project_ / "cell.toml", text);
+    write_file(project_folder / "cell.toml", text);
     EXPECT_EQ(made_again(), "AB");
 }
 

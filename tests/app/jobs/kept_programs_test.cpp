@@ -46,26 +46,26 @@ ProvenProgram part_of(std::uint16_t number) {
 class KeptPrograms : public testing::Test {
  protected:
     void SetUp() override {
-        job_ = tilting_job(3);
-        job_.caps = {capped(job_, 2)};
-        made_.caps = job_.caps;
-        decide_holes(made_.caps, {1}, {}, "the arm does not hold it");
-        made_.parts = {part_of(1), part_of(2)};
-        keep_programs(file(job_), {job_, cell_}, made_);
+        own_job = tilting_job(3);
+        own_job.caps = {capped(own_job, 2)};
+        own_programs.caps = own_job.caps;
+        decide_holes(own_programs.caps, {1}, {}, "the arm does not hold it");
+        own_programs.parts = {part_of(1), part_of(2)};
+        keep_programs(file(own_job), {own_job, cell_file}, own_programs);
     }
 
-    std::filesystem::path file(const JobInput& job) const { return programs_file(folder_.path(), {job, cell_}); }
-    std::optional<PiecePrograms> kept(const JobInput& job) const { return kept_programs(file(job), {job, cell_}); }
+    std::filesystem::path file(const JobInput& job) const { return programs_file(temporary.path(), {job, cell_file}); }
+    std::optional<PiecePrograms> kept(const JobInput& job) const { return kept_programs(file(job), {job, cell_file}); }
     bool is_kept_after(const std::function<void(JobInput&)>& change) const {
-        JobInput job = job_;
+        JobInput job = own_job;
         change(job);
         return kept(job).has_value();
     }
 
-    TemporaryFolder folder_{"qchopper-kept-"};
-    JobInput job_;
-    PiecePrograms made_;
-    Sha256 cell_ = sha256({});
+    TemporaryFolder temporary{"qchopper-kept-"};
+    JobInput own_job;
+    PiecePrograms own_programs;
+    Sha256 cell_file = sha256({});
 };
 
 void expect_same(const ProvenProgram& a, const ProvenProgram& b) {
@@ -82,21 +82,21 @@ void expect_same(const ProvenProgram& a, const ProvenProgram& b) {
 }
 
 TEST_F(KeptPrograms, AreThoseThatWereMade) {
-    const std::optional<PiecePrograms> found = kept(job_);
+    const std::optional<PiecePrograms> found = kept(own_job);
     ASSERT_TRUE(found);
     ASSERT_EQ(found->parts.size(), 2U);
-    for (std::size_t i = 0; i < 2; ++i) expect_same(found->parts[i], made_.parts[i]);
+    for (std::size_t i = 0; i < 2; ++i) expect_same(found->parts[i], own_programs.parts[i]);
     ASSERT_EQ(found->caps.size(), 1U);
-    EXPECT_EQ(found->caps[0].cap, made_.caps[0].cap) << "who drills each hole is known again";
+    EXPECT_EQ(found->caps[0].cap, own_programs.caps[0].cap) << "who drills each hole is known again";
     EXPECT_FALSE(found->place);
-    made_.place = BlockPlacement{1.0 / 3, -2, 0.5, {1, 2}};
-    made_.parts.clear();
-    made_.none_because = "no arm reaches it";
-    keep_programs(file(job_), {job_, cell_}, made_);
-    const std::optional<PiecePrograms> none = kept(job_);
+    own_programs.place = BlockPlacement{1.0 / 3, -2, 0.5, {1, 2}};
+    own_programs.parts.clear();
+    own_programs.none_because = "no arm reaches it";
+    keep_programs(file(own_job), {own_job, cell_file}, own_programs);
+    const std::optional<PiecePrograms> none = kept(own_job);
     ASSERT_TRUE(none) << "that there is none takes as long to find";
-    EXPECT_EQ(none->place, made_.place);
-    EXPECT_EQ(none->none_because, made_.none_because);
+    EXPECT_EQ(none->place, own_programs.place);
+    EXPECT_EQ(none->none_because, own_programs.none_because);
     EXPECT_TRUE(none->parts.empty());
 }
 
@@ -114,17 +114,17 @@ TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
     }));
     // The same setup, held by another arm configuration: its program is another one.
     const JobInput held = placed_job();
-    keep_programs(file(held), {held, cell_}, made_);
+    keep_programs(file(held), {held, cell_file}, own_programs);
     JobInput other = held;
     EXPECT_TRUE(kept(other));
     bool& is_back = other.machine_reachability.regions.front().configuration.is_back;
     is_back = !is_back;
     EXPECT_FALSE(kept(other));
 
-    Sha256 other_cell = cell_;
+    Sha256 other_cell = cell_file;
     other_cell.bytes[0] ^= 1U;
-    EXPECT_NE(programs_file(folder_.path(), {job_, other_cell}), file(job_));
-    EXPECT_NE(programs_file(folder_.path(), {job_, cell_, FineTools::all}), file(job_));
+    EXPECT_NE(programs_file(temporary.path(), {own_job, other_cell}), file(own_job));
+    EXPECT_NE(programs_file(temporary.path(), {own_job, cell_file, FineTools::all}), file(own_job));
 }
 
 // What another decision changes in the job of a piece that it leaves alone.
@@ -138,7 +138,7 @@ TEST_F(KeptPrograms, StayWhereOtherPiecesChange) {
 }
 
 TEST_F(KeptPrograms, AreTakenForAnotherNumberOfThePiece) {
-    JobInput third = job_;
+    JobInput third = own_job;
     third.piece_no = 3;
     const std::optional<PiecePrograms> found = kept(third);
     ASSERT_TRUE(found);
@@ -151,46 +151,46 @@ TEST_F(KeptPrograms, AreTakenForAnotherNumberOfThePiece) {
     third.piece_no = third.piece_count = 12;
     EXPECT_FALSE(kept(third)) << "longer names: the program may be divided elsewhere";
     third.piece_no = 3;
-    made_.parts[1].proof.findings.push_back({"gouge", "qc_2_002.src", 3, "too deep"});
-    made_.parts[1].input.proof = made_.parts[1].proof;
-    keep_programs(file(job_), {job_, cell_}, made_);
-    EXPECT_TRUE(kept(job_));
+    own_programs.parts[1].proof.findings.push_back({"gouge", "qc_2_002.src", 3, "too deep"});
+    own_programs.parts[1].input.proof = own_programs.parts[1].proof;
+    keep_programs(file(own_job), {own_job, cell_file}, own_programs);
+    EXPECT_TRUE(kept(own_job));
     EXPECT_FALSE(kept(third)) << "a finding names a file";
 }
 
 TEST_F(KeptPrograms, AreMadeAgainWhereTheirFileIsMissingOrDamaged) {
-    const Bytes whole = read_file(file(job_));
+    const Bytes whole = read_file(file(own_job));
     for (const std::size_t at : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
         Bytes damaged = whole;
         damaged[at] ^= 1U;
-        write_file(file(job_), damaged);
-        EXPECT_FALSE(kept(job_)) << at;
+        write_file(file(own_job), damaged);
+        EXPECT_FALSE(kept(own_job)) << at;
     }
-    write_file(file(job_), Bytes(whole.begin(), whole.begin() + 100));
-    EXPECT_FALSE(kept(job_));
-    write_file(file(job_), whole);
-    EXPECT_TRUE(kept(job_));
-    std::filesystem::remove(file(job_));
-    EXPECT_FALSE(kept(job_));
+    write_file(file(own_job), Bytes(whole.begin(), whole.begin() + 100));
+    EXPECT_FALSE(kept(own_job));
+    write_file(file(own_job), whole);
+    EXPECT_TRUE(kept(own_job));
+    std::filesystem::remove(file(own_job));
+    EXPECT_FALSE(kept(own_job));
 }
 
 TEST_F(KeptPrograms, TheOldestAreRemoved) {
     using std::filesystem::exists;
     using std::filesystem::last_write_time;
-    JobInput other = job_;
+    JobInput other = own_job;
     other.setup.placement.x += 1;
-    keep_programs(file(other), {other, cell_}, made_);
-    write_file(folder_.path() / "x.stress", "another kind");
+    keep_programs(file(other), {other, cell_file}, own_programs);
+    write_file(temporary.path() / "x.stress", "another kind");
     const auto now = std::filesystem::file_time_type::clock::now();
-    last_write_time(file(job_), now - std::chrono::hours(2));
+    last_write_time(file(own_job), now - std::chrono::hours(2));
     last_write_time(file(other), now - std::chrono::hours(1));
-    remove_oldest(folder_.path(), programs_ending, 2);
-    EXPECT_TRUE(exists(file(job_)) && exists(file(other)));
-    EXPECT_TRUE(kept(job_)) << "it was taken, and is now the newest";
-    remove_oldest(folder_.path(), programs_ending, 1);
-    EXPECT_TRUE(exists(file(job_)));
+    remove_oldest(temporary.path(), programs_ending, 2);
+    EXPECT_TRUE(exists(file(own_job)) && exists(file(other)));
+    EXPECT_TRUE(kept(own_job)) << "it was taken, and is now the newest";
+    remove_oldest(temporary.path(), programs_ending, 1);
+    EXPECT_TRUE(exists(file(own_job)));
     EXPECT_FALSE(exists(file(other)));
-    EXPECT_TRUE(exists(folder_.path() / "x.stress"));
+    EXPECT_TRUE(exists(temporary.path() / "x.stress"));
 }
 
 }  // namespace
