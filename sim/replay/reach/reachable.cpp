@@ -103,8 +103,8 @@ SurfaceMap narrowed(const SurfaceMap& wide, std::int32_t by) {
     return map;
 }
 
-// So many cells about the target are closed with it: tips stand up to the radius beside it, on surface as far again.
-std::int32_t cells_around(const CuttingTool& tool, double cell) {
+// The cells about the target that its closing needs: tips stand up to the radius beside it, on surface as far again.
+std::int32_t margin_of(const CuttingTool& tool, double cell) {
     return static_cast<std::int32_t>(std::ceil(tool.diameter / cell)) + 2;
 }
 
@@ -210,7 +210,7 @@ bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_fin
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
                       const Context& context) {
     context.check_cancelled();
-    SurfaceMap map = target_surface(scene, orientation, cell, cells_around(tool, cell));
+    SurfaceMap map = target_surface(scene, orientation, cell, margin_of(tool, cell));
     close(scene, orientation, tool, CellBlocks::all_of(map), map);
     context.check_cancelled();
     return map;
@@ -282,7 +282,7 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
         keep_finishing(tools, machine.tools);
         std::vector<std::pair<std::size_t, bool>> closed;  // tools, and whether their holders limit them
         std::int32_t widest = 0;
-        for (const std::size_t tool : tools) widest = std::max(widest, cells_around(machine.tools[tool], cell));
+        for (const std::size_t tool : tools) widest = std::max(widest, margin_of(machine.tools[tool], cell));
         std::optional<SurfaceMap> target;
         for (const std::size_t tool : tools) {
             const bool is_needless = std::any_of(closed.begin(), closed.end(), [&](const auto& finer) {
@@ -291,7 +291,7 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
             if (is_needless || left.empty()) continue;
             context.check_cancelled();
             if (!target) target = target_surface(scene, d, cell, widest);
-            SurfaceMap map = narrowed(*target, widest - cells_around(machine.tools[tool], cell));
+            SurfaceMap map = narrowed(*target, widest - margin_of(machine.tools[tool], cell));
             CellBlocks asked(map);
             for (const std::size_t i : left) {
                 asked.add(cells_around(map, apply_inverse(map.frame_in_setup, points[i]), most));

@@ -169,7 +169,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
     const SweepOverMap sweep(cutter, a, move, map);
     const SweepOverMap inner(inset_cutter(cutter, contact_mm), a, move, map);
-    const bool goes_on =
+    const bool is_begun =
         last_move_ && last_move_->orientation == orientation && last_move_->cutter == cutter && last_move_->to == from;
     last_move_ = {orientation, cutter, to};
     CutResult result;
@@ -199,7 +199,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
         const CellRange own = moved_by(cells, -tx * side, -ty * side);
         for_squares(own, [&](std::int32_t x, std::int32_t y) {
             const float most = tile.max_of_square[DexelTile::square_of_cut(x, y)];
-            if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y, goes_on)) return;
+            if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y, is_begun)) return;
             for (std::int32_t j = std::max(y, own.y_begin); j < std::min(y + DexelTile::square, own.y_end); ++j) {
                 const std::size_t first = cell_of(x, j);
                 if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;

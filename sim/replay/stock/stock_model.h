@@ -47,7 +47,8 @@ class StockModel {
     StockModel(const StockModel&) = delete;
     StockModel& operator=(const StockModel&) = delete;
 
-    // Removes what the tool sweeps from tip to tip along a direction.
+    // Removes what the tool sweeps from tip to tip along a direction. A move that begins where the last one ended, with
+    // the same cutter along the same direction, costs less and removes the same.
     CutResult cut(std::size_t orientation, const Cutter& cutter, double flute, Vec3 from, Vec3 to);
     // Largest height by which foam stands above the underside of a disc that moves along a direction, its middle at
     // height `above` over the tip; 0 or less: it is clear.
