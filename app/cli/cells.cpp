@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/cli/arguments/option_values.h"
 #include "app/cli/commands.h"
@@ -12,6 +11,7 @@
 #include "app/report/cell/cell_report.h"
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/units.h"
 
 namespace qchopper {
 namespace {
@@ -96,7 +96,7 @@ int run(const CellsReachArguments& arguments, Terminal& terminal) {
                          "describe it as docs/user/cell-file.md says, or ask a cell that has one: qchopper cells list");
     }
     const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_stock_size(cell);
-    const double tilt = arguments.tilt_deg * std::numbers::pi / 180;
+    const double tilt = radians(arguments.tilt_deg);
     // So that a line of the map has at most 15 places.
     const double step = 100 * std::max(1.0, std::ceil(std::max(cell.table.size_x, cell.table.size_y) / 1500));
     const PlacesInCell places{arguments.file.string(), cell, block_places(cell, block, tilt, step, terminal.context())};

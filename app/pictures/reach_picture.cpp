@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "segment/picture/lettering.h"
 
 namespace qchopper {
@@ -31,10 +31,6 @@ constexpr Rgb frame_colour{110, 110, 110};
 constexpr Rgb box_colour{213, 94, 0};
 constexpr Rgb table_colour{30, 30, 30};
 constexpr Rgb base_colour{160, 0, 90};
-
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
 
 Rgb colour_of(double share) {
     const auto channel = [share](int from, int to) {
@@ -192,7 +188,6 @@ void draw_legend(Pixels& pixels, const Cell& cell) {
 }  // namespace
 
 std::vector<double> pictured_tilts() {
-    constexpr double degree = std::numbers::pi / 180;
     return {0, 30 * degree, 60 * degree, 90 * degree};
 }
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/job/glue_faces.h"
 #include "segment/mesh/plane_frame.h"
 
@@ -51,7 +51,6 @@ std::optional<BlockFace> sawn_side(const Setup& setup, std::int32_t cut) {
 
 // Why no tool may come out along the cap's normal; empty: one may.
 std::string not_drilled_because(const HalfSpace& half_space, const Setup& setup, const Cell& cell) {
-    constexpr double degree = std::numbers::pi / 180;
     if (setup.base && *setup.base == half_space.cut) return "its cap is the base, which lies on the table";
     if (sawn_side(setup, half_space.cut)) {
         return "its cap is a sawn side of the block: drill it before the block is carved";

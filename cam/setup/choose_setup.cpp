@@ -9,9 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <tuple>
 
+#include "base/units.h"
 #include "cam/cell/job_tools.h"
 #include "cam/setup/layout/lay_out.h"
 #include "cam/setup/limiting_tools.h"
@@ -31,8 +31,6 @@ namespace {
 
 // Shares that differ by less are equal for the choice of a base: about the error of the samples.
 constexpr double equal_share = 0.001;
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::vector<std::int32_t> cuts_of(const std::vector<FlushCap>& caps) {
     std::vector<std::int32_t> cuts;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/units.h"
 #include "cam/setup/stock_points.h"
 #include "segment/mesh/measure.h"
 #include "segment/raster/height_field.h"
@@ -158,8 +159,7 @@ class Reaching {
     ToolOrientation join_reached(const HeightField& map, const std::vector<float>& reached) {
         ToolOrientation orientation;
         orientation.tool_axis = map.tool_axis();
-        orientation.tilt_deg =
-            std::acos(std::clamp(dot(orientation.tool_axis, setup_.up), -1.0, 1.0)) * 180 / std::numbers::pi;
+        orientation.tilt_deg = degrees(std::acos(std::clamp(dot(orientation.tool_axis, setup_.up), -1.0, 1.0)));
         const Vec3 tool_axis = setup_.tool_axis(orientation);
         const Box block_box = setup_.block_box();
         Depths depths(norm(block_box.size()), area_);

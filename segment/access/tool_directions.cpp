@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "segment/mesh/plane.h"
 
 namespace qchopper {
@@ -86,7 +87,7 @@ std::vector<Vec3> dense_directions(std::size_t count) {
 
 bool is_allowed(Vec3 direction, Vec3 up, double tilt_deg) {
     assert(tilt_deg >= 0 && tilt_deg <= largest_tilt_deg);
-    return dot(direction, up) >= std::cos(tilt_deg * std::numbers::pi / 180) - 1e-9;
+    return dot(direction, up) >= std::cos(radians(tilt_deg)) - 1e-9;
 }
 
 std::vector<std::uint32_t> allowed_directions(std::span<const Vec3> directions, Vec3 up, double tilt_deg) {

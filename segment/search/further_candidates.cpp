@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.h"
 #include "segment/cut/nudge.h"
 
 namespace qchopper {
@@ -70,7 +70,7 @@ std::vector<std::size_t> without_near_planes(const std::vector<Ranked>& ranked, 
                                              const OrientedBox& box) {
     const Vec3 centre = centroid_of_volume(*piece.mesh);
     const double near_mm = near_share * norm(box.size());
-    const double near_cos = std::cos(near_deg * std::numbers::pi / 180);
+    const double near_cos = std::cos(radians(near_deg));
     const auto over_centre = [&](const Plane& plane) { return plane.offset - height(plane.normal, centre); };
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < ranked.size(); ++i) {

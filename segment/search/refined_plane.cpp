@@ -4,15 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double first_turn = 3 * std::numbers::pi / 180;
+constexpr double first_turn = radians(3);
 constexpr int levels = 2;
 constexpr int max_moves = 2;  // of one step size
 

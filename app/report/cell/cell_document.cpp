@@ -2,11 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <numbers>
-
 #include "app/report/cell/cell_report.h"
 #include "app/report/machine_reachability_report.h"
 #include "app/report/report_json.h"
+#include "base/units.h"
 
 namespace qchopper {
 namespace {
@@ -14,10 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int version = 2;  // of all cell files that are read
-
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
 
 Json box_json(const Box& box) {
     return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};

@@ -1,10 +1,9 @@
 // Text from a value: one function per table of the cell file.
 
-#include <numbers>
-
 #include "app/report/cell/cell_report.h"
 #include "app/report/columns.h"
 #include "base/text.h"
+#include "base/units.h"
 
 namespace qchopper {
 namespace {
@@ -19,8 +18,8 @@ std::string number(double value) {
     return significant(value, 7);
 }
 
-std::string degrees(double radians) {
-    return significant(radians * 180 / std::numbers::pi, 6);
+std::string in_degrees(double angle) {
+    return significant(degrees(angle), 6);
 }
 
 std::string size_of(Vec3 size) {
@@ -41,11 +40,11 @@ void add_robot(std::vector<std::string>& text, const Robot& robot) {
     Rows rows{{"axis", "min deg", "max deg", "deg/s", "deg/s2", "cable deg"}};
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         const JointRange& range = robot.ranges[axis];
-        rows.push_back({std::to_string(axis + 1), degrees(range.min), degrees(range.max), degrees(range.speed),
-                        degrees(range.acceleration)});
+        rows.push_back({std::to_string(axis + 1), in_degrees(range.min), in_degrees(range.max), in_degrees(range.speed),
+                        in_degrees(range.acceleration)});
         if (!robot.cable || (axis != 3 && axis != 5)) continue;
         const AngleRange& cable = axis == 3 ? robot.cable->axis_4 : robot.cable->axis_6;
-        rows.back().push_back(degrees(cable.min) + " to " + degrees(cable.max));
+        rows.back().push_back(in_degrees(cable.min) + " to " + in_degrees(cable.max));
     }
     append(text, columns(rows));
 }
@@ -54,7 +53,7 @@ std::string table_line(const Cell& cell) {
     const Table& table = cell.table;
     if (cell.machine && cell.machine->rotary_table) {
         const RotaryTable& rotary = *cell.machine->rotary_table;
-        return "table      rotary, radius " + number(rotary.radius) + ", " + degrees(rotary.speed) +
+        return "table      rotary, radius " + number(rotary.radius) + ", " + in_degrees(rotary.speed) +
                " deg/s, external axis " + std::to_string(rotary.external_axis) + ", middle of its top at " +
                in_brackets(rotary.table_in_cell.shift, 1);
     }
@@ -109,7 +108,7 @@ std::string margins_line(const Margins& margins) {
 
 void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
     if (machine.robot) {
-        text.push_back("tilt       up to " + degrees(machine.max_tilt) + " degrees from the vertical");
+        text.push_back("tilt       up to " + in_degrees(machine.max_tilt) + " degrees from the vertical");
     }
     text.push_back("surface    up to " + number(100 * machine.max_unreachable) + " % of a piece's may be unreachable");
     text.push_back("holding    by tape or glue of " + number(machine.holding.strength) +
@@ -125,7 +124,7 @@ void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
                    number(program.link_feed_mm_per_s) + " mm/s, tool change by " +
                    (program.tool_change_call ? "calling " + *program.tool_change_call : "a stop") + " of " +
                    number(program.tool_change_s) + " s");
-    text.push_back("motion     up to " + number(program.acceleration) + " mm/s2, " + degrees(program.turn_speed) +
+    text.push_back("motion     up to " + number(program.acceleration) + " mm/s2, " + in_degrees(program.turn_speed) +
                    " degrees/s of orientation, joint moves at " + number(100 * program.joint_share) +
                    " % of each axis, straight moves of " + number(1000 * program.interpolation_cycle_s) +
                    " ms and more; finishing leaves ridges of " + number(program.scallop));

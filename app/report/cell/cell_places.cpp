@@ -1,11 +1,10 @@
 // The map of places as text.
 
-#include <numbers>
-
 #include "app/report/cell/cell_report.h"
 #include "app/report/columns.h"
 #include "app/report/machine_reachability_report.h"
 #include "base/text.h"
+#include "base/units.h"
 
 namespace qchopper {
 namespace {
@@ -42,7 +41,7 @@ std::vector<std::vector<std::string>> rows_of(const BlockPlaces& map) {
 
 std::string question(const BlockPlaces& map) {
     const std::string size = fixed(map.block.x, 0) + " x " + fixed(map.block.y, 0) + " x " + fixed(map.block.z, 0);
-    const std::string tilt = significant(map.tilt * 180 / std::numbers::pi, 4);
+    const std::string tilt = significant(degrees(map.tilt), 4);
     return "block of " + size + " mm, tool straight down" +
            (map.tilt > 0 ? " and at a tilt of " + tilt + " degrees from all around" : "");
 }

@@ -2,9 +2,8 @@
 
 #include "cam/job/sheet/envelope_section.h"
 
-#include <numbers>
-
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/job/sheet/envelope_picture.h"
 #include "cam/job/sheet/sheet_html.h"
 
@@ -15,8 +14,8 @@ using namespace sheet;
 
 constexpr const char* title = "Work envelope";
 
-std::string degrees(double radians) {
-    return fixed(radians * 180 / std::numbers::pi, 1);
+std::string in_degrees(double angle) {
+    return fixed(degrees(angle), 1);
 }
 
 std::string picture_of(const MachineReachability& reachability) {
@@ -30,7 +29,7 @@ std::string joints_of(const ReachabilityPose& pose) {
     if (!pose.joints) return {};
     std::string text = "Joints of the arm there, degrees: ";
     for (std::size_t axis = 0; axis < pose.joints->size(); ++axis) {
-        text += (axis == 0 ? "" : ", ") + degrees((*pose.joints)[axis]);
+        text += (axis == 0 ? "" : ", ") + in_degrees((*pose.joints)[axis]);
     }
     return paragraph(text + ". Tool tip in the cell: (" + fixed(pose.tip_in_cell.x, 1) + ", " +
                      fixed(pose.tip_in_cell.y, 1) + ", " + fixed(pose.tip_in_cell.z, 1) + ").");
@@ -52,7 +51,7 @@ std::string angles_of(const BlockPlacement& placement) {
     if (placement.table_angles.empty()) return {};
     Rows rows{{right("orientation"), right("rotary table, degrees")}};
     for (std::size_t d = 0; d < placement.table_angles.size(); ++d) {
-        rows.push_back({right(std::to_string(d + 1)), right(degrees(placement.table_angles[d]))});
+        rows.push_back({right(std::to_string(d + 1)), right(in_degrees(placement.table_angles[d]))});
     }
     return table(rows);
 }

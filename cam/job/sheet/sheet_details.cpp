@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/hex.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "cam/job/manifest.h"
 #include "cam/job/sheet/envelope_section.h"
 #include "cam/job/sheet/glue_section.h"
@@ -21,10 +21,6 @@ namespace qchopper {
 namespace {
 
 using namespace sheet;
-
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
 
 std::string piece_section(const Setup& setup) {
     const Vec3 size = setup.box.size();

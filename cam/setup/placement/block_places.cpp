@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/units.h"
 #include "cam/setup/block.h"
 #include "cam/setup/placement/milling_poses.h"
 #include "cam/setup/placement/place_block.h"
@@ -31,7 +32,7 @@ Setup empty_setup(const Cell& cell, Vec3 block, double tilt) {
     for (int i = 0; tilt > 0 && i < block_azimuths; ++i) {
         const double azimuth = 2 * std::numbers::pi * i / block_azimuths;
         const Vec3 tool_axis{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
-        setup.access.orientations.push_back({tool_axis, tilt * 180 / std::numbers::pi, 0, 0});
+        setup.access.orientations.push_back({tool_axis, degrees(tilt), 0, 0});
     }
     return setup;
 }

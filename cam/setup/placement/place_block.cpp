@@ -15,13 +15,13 @@
 #include <numbers>
 #include <utility>
 
+#include "base/units.h"
 #include "cam/setup/placement/place_score.h"
 #include "cam/setup/placement/reachability_report.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-9;     // of scores
 constexpr double score_slack = 0.02;  // a place that is worse than the best by less may be the best of all poses

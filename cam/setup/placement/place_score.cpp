@@ -11,6 +11,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/units.h"
 #include "cam/cell/machine_bodies.h"
 #include "cam/cell/shape_distance.h"
 #include "cam/setup/holder_clearance.h"
@@ -18,7 +19,6 @@
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 constexpr double table_step = 15 * degree;
 constexpr int table_angles = 24;

@@ -9,11 +9,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.h"
+
 namespace qchopper {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double rounding = 1e-9;    // of relative margins
 constexpr double beside_mm = 60;     // farther apart, poses say nothing of the way between them
 constexpr double largest_jump = 90;  // degrees, of an axis between poses beside each other
@@ -81,7 +82,7 @@ struct PoseJudge::Walk {
 };
 
 std::vector<double> judged_table_angles(double from, double to) {
-    constexpr double step = 5 / degrees;
+    constexpr double step = 5 / degrees_per_radian;
     std::vector<double> angles{from};
     const double low = std::min(from, to);
     const double high = std::max(from, to);
@@ -177,14 +178,16 @@ std::optional<Joints> PoseJudge::joints_at(const Walk& walk, std::size_t index, 
         jump = std::max(jump, std::abs(joints[axis] - wanted[axis]));
     }
     if (beside != nullptr && norm(pose.tip - walk.region.poses[pose.beside].tip) < beside_mm) {
-        tally.add(PoseCheck::axis_step, largest_jump - jump * degrees, {});
+        tally.add(PoseCheck::axis_step, largest_jump - jump * degrees_per_radian, {});
     }
     return joints;
 }
 
 void PoseJudge::judge_limit(std::size_t axis, double joint, std::uint16_t side, MarginTally& tally) const {
     const Robot& robot = *machine_.robot;
-    const auto beyond = [&](double min, double max) { return degrees * (side == 0 ? joint - min : max - joint); };
+    const auto beyond = [&](double min, double max) {
+        return degrees_per_radian * (side == 0 ? joint - min : max - joint);
+    };
     const auto number = code(axis + 1);
     tally.add(PoseCheck::joint_limit, beyond(robot.ranges[axis].min, robot.ranges[axis].max), {number, side});
     if (!robot.cable || (axis != axis_4 && axis != axis_6)) return;
@@ -216,14 +219,15 @@ void PoseJudge::judge_singularity(const Joints& joints, MarginTally& tally) cons
     tally.add(PoseCheck::reach, stretch_margin(arm, from_axis_2), {});
     tally.add(PoseCheck::elbow, 100 * (1 - from_axis_2 / (arm.c2 + fore)), {});
     tally.add(PoseCheck::shoulder, std::abs(from_axis_1), {});
-    tally.add(PoseCheck::wrist, degrees * std::asin(std::min(1.0, std::abs(std::sin(angle(joints, 4))))), {});
+    tally.add(PoseCheck::wrist, degrees_per_radian * std::asin(std::min(1.0, std::abs(std::sin(angle(joints, 4))))),
+              {});
 }
 
 void PoseJudge::judge_speed(const Joints& joints, double feed, MarginTally& tally) const {
     const std::optional<Joints> speeds = largest_joint_speeds(arm_->geometry, joints);
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        const double limit = degrees * machine_.robot->ranges[axis].speed;
-        const double left = speeds ? limit - degrees * feed * (*speeds)[axis] : -limit;
+        const double limit = degrees_per_radian * machine_.robot->ranges[axis].speed;
+        const double left = speeds ? limit - degrees_per_radian * feed * (*speeds)[axis] : -limit;
         tally.add(PoseCheck::joint_speed, left, {code(axis + 1), 0});
     }
 }

@@ -7,16 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "base/units.h"
 #include "cam/setup/holder_clearance.h"
 #include "cam/setup/placement/stated_angle.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-9;  // of scores
 

@@ -23,12 +23,12 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/units.h"
 #include "cam/toolpath/finishing/raster_passes.h"
 #include "cam/toolpath/finishing/scallop.h"
 #include "cam/toolpath/finishing/waterline_passes.h"
@@ -245,7 +245,7 @@ std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& too
         context.progress("steps of finishing", done, 4);
     };
     report(0);
-    const double min_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
+    const double min_slope = std::tan(radians(options.steep_deg));
     FinishingMasks masks = masks_of(cl, region, options.tiles, radius, min_slope);
     report(1);
     SteepRegions(cl, masks).give_low_ones_to_flat(0.5 * stepover);

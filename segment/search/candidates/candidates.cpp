@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "base/parallel.h"
+#include "base/units.h"
 #include "segment/access/tool_directions.h"
 #include "segment/cut/nudge.h"
 
@@ -15,7 +15,7 @@ namespace qchopper {
 namespace {
 
 bool is_same_direction(Vec3 a, Vec3 b) {
-    return norm(cross(a, b)) < std::sin(min_turn_deg * std::numbers::pi / 180);
+    return norm(cross(a, b)) < std::sin(radians(min_turn_deg));
 }
 
 }  // namespace
