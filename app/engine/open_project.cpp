@@ -25,6 +25,10 @@
 namespace qchopper {
 namespace {
 
+// Assumed: filler and sandpaper take as long on a strip of this width along a joint as handwork on the same area that
+// no tool reaches.
+constexpr double seam_width_mm = 10;
+
 std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
     const Plane wanted = canonical(plane);
     const std::optional<Nudged> nudged = nudge(piece, wanted.normal, std::span(&wanted.offset, 1)).front();
@@ -138,6 +142,7 @@ PieceChecks OpenProject::checks() {
         return setups->is_machinable(piece);
     };
     checks.min_gain_mm2 = setups->min_gain_mm2();
+    checks.seam_width_mm = seam_width_mm;
     checks.low_blocks_needed = [blocks = low_usable_blocks(setups->with_shortest_tools())](Vec3 size) {
         return blocks_needed(blocks, size);
     };

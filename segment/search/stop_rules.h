@@ -67,6 +67,9 @@ struct PieceChecks {
     // Surface (mm2) of which less is no gain of cuts on trial (trial.h): a patch that the finest tool cannot tell from
     // none.
     double min_gain_mm2 = 0;
+    // Of a joint that cuts on trial make, surface (mm2) for each mm of its outline on the skin: the strip that is
+    // finished by hand, as surface that no tool reaches is.
+    double seam_width_mm = 0;
     PlanesOnTrial planes_on_trial = {};  // of a piece that is cut on trial; empty: the ranking as it is
 };
 
@@ -103,6 +106,7 @@ class StopJudge {
     // Precondition: max_unreachable is set, and its function is not empty.
     const UnreachableSurface& unreachable(const Piece& piece);
     double min_gain_mm2() const { return checks_.min_gain_mm2; }
+    double seam_width_mm() const { return checks_.seam_width_mm; }
     std::vector<Ranked> planes_on_trial(const Segmentation& segmentation, std::size_t piece,
                                         std::vector<Ranked> ranked) const;
 

@@ -1,9 +1,12 @@
-// Each cut costs the evaluation of one piece, and what the judge asks of the pieces that it makes.
+// Each cut costs the evaluation of one piece, and what the judge asks of the pieces that it makes; its seam a sort of
+// the edges of its caps.
 
 #include "segment/search/trial.h"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
@@ -24,6 +27,34 @@ double counted_area(const TriangleMesh& mesh) {
         if (cap_of(mesh, t) == no_cap && !is_ignored(mesh, t)) area += norm(area_vector(mesh, t));
     }
     return area;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the smaller index first
+
+// Adds the edges of the triangles that `is_wanted` holds of, each as often as it occurs. O(triangles).
+template <class Wanted>
+void add_edges(const TriangleMesh& mesh, const Wanted& is_wanted, std::vector<Edge>& edges) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!is_wanted(cap_of(mesh, t))) continue;
+        const auto& [a, b, c] = mesh.triangles[t];
+        for (const Edge& edge : {std::minmax({a, b}), std::minmax({b, c}), std::minmax({c, a})}) edges.push_back(edge);
+    }
+    std::ranges::sort(edges);
+}
+
+// The length of the edges between skin and the caps of cuts with the number `first` or a larger one.
+double seam_mm(const TriangleMesh& mesh, std::int32_t first) {
+    std::vector<Edge> caps;
+    std::vector<Edge> skin;
+    std::vector<Edge> seam;
+    add_edges(
+        mesh, [&](std::int32_t cap) { return cap != no_cap && cap >= first; }, caps);
+    add_edges(
+        mesh, [](std::int32_t cap) { return cap == no_cap; }, skin);
+    std::ranges::set_intersection(caps, skin, std::back_inserter(seam));
+    double length = 0;
+    for (const auto& [a, b] : seam) length += norm(mesh.points[b] - mesh.points[a]);
+    return length;
 }
 
 // The segmentation during a trial, and the pieces that the trial made.
@@ -53,6 +84,14 @@ class Attempt {
         double sum = 0;
         for (const std::size_t p : family()) sum += judge_.unreachable(segmentation_.pieces[p]).mm2;
         return sum;
+    }
+
+    // Of the joints of its cuts, each of which two pieces have.
+    double seam_mm() const {
+        const std::int32_t first = static_cast<std::int32_t>(segmentation_.cuts.size()) - cuts_ + 1;
+        double sum = 0;
+        for (const std::size_t p : family()) sum += qchopper::seam_mm(*segmentation_.pieces[p].mesh, first);
+        return sum / 2;
     }
 
     bool does_every_piece_hold() const { return failing().empty(); }
@@ -117,12 +156,12 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
-    const double least = min_fall_mm2(*piece, before, judge.min_gain_mm2());
-    const double least_to_hold = least_fall_to_hold_mm2(judge.min_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
-        const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();
-        if (holds || before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
+        const double min_gain = std::max(judge.min_gain_mm2(), judge.seam_width_mm() * attempt.seam_mm());
+        const bool holds = before - after >= least_fall_to_hold_mm2(min_gain) && attempt.does_every_piece_hold();
+        if (holds || before - after >= min_fall_mm2(*piece, before, min_gain))
+            return Trial{std::move(attempt.segmentation()), {}};
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {

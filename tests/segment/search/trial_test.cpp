@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "segment/mesh/measure.h"
 #include "segment/search/search.h"
@@ -104,6 +107,41 @@ TEST(Trial, NeedsATenthOfWhatIsOutOfReachAndTwoThousandthsOfThePiece) {
     EXPECT_FALSE(is_better(100'000, 90'001));
     EXPECT_TRUE(is_better(10'000, 9'999 - 0.002 * area));
     EXPECT_FALSE(is_better(10'000, 10'001 - 0.002 * area)) << "a third of it is too little of this piece";
+}
+
+// The edges of a mesh with one cap that only one of its triangles has.
+double outline_of_cap(const TriangleMesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (cap_of(mesh, t) == no_cap) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            ++edges[std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])];
+        }
+    }
+    double length = 0;
+    for (const auto& [edge, count] : edges) {
+        if (count == 1) length += norm(mesh.points[edge.first] - mesh.points[edge.second]);
+    }
+    return length;
+}
+
+TEST(Trial, NeedsAsMuchAsAStripAlongItsJoints) {
+    const auto searched_with = [](double seam_width_mm, const UnreachableOf& reach) {
+        PieceChecks checks{{}, reach};
+        checks.seam_width_mm = seam_width_mm;
+        return searched(ball(), settings_of(), checks).segmentation;
+    };
+    // 100,000 mm2 before; 88,000 after any number of cuts, so that more joints are no remedy.
+    const UnreachableOf better = by_cuts({too_much(100'000), too_much(44'000), too_much(22'000), too_much(11'000)});
+    const UnreachableOf held = by_cuts({too_much(100'000)});
+    const Segmentation cut = searched_with(0, held);
+    ASSERT_EQ(cut.cuts.size(), 1U);
+    const double seam = outline_of_cap(*cut.pieces[0].mesh);
+    ASSERT_NEAR(seam, outline_of_cap(*cut.pieces[1].mesh), 1e-6 * seam);
+    EXPECT_GT(searched_with(0.999 * 12'000 / seam, better).cuts.size(), 0U);
+    EXPECT_EQ(searched_with(1.001 * 12'000 / seam, better).cuts.size(), 0U);
+    EXPECT_EQ(searched_with(0.999 * 400'000 / seam, held).cuts.size(), 1U) << "a quarter where every piece holds";
+    EXPECT_EQ(searched_with(1.001 * 400'000 / seam, held).cuts.size(), 0U);
 }
 
 // A hundredth of the scan's surface, 6 % of it out of reach: little of the scan, and no little of the piece.
