@@ -27,6 +27,7 @@
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/io/write_mesh.h"
 #include "segment/mesh/transform.h"
+#include "sim/replay/finding.h"
 
 namespace qchopper {
 namespace {
@@ -34,6 +35,8 @@ namespace {
 constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
 constexpr double pose_distance = 20;   // mm, of those of a toolpath by which its block is placed
 constexpr std::size_t max_places = 6;  // of the block, the one that its setup has included
+constexpr double slower = 0.6;         // feed of a tool that removed foam too fast, of the one before
+constexpr int most_feeds = 4;          // that are tried, the largest included
 
 std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     std::vector<Pose> frames;
@@ -283,26 +286,10 @@ void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& m
     if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation);
 }
 
-}  // namespace
-
-std::string no_programs_for(const Cell& cell) {
-    if (!cell.machine) return "the cell file describes no machine";
-    const Dialect dialect = cell.machine->program.dialect;
-    if (dialect == Dialect::krl) return {};
-    return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";
-}
-
-std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {
-    decide_holes(caps, {}, {}, "there is no program: " + none_because);
-    return caps;
-}
-
-PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
-                            std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
+PiecePrograms programs_with(const ToolpathSettings& settings, const Piece& piece, const PlacedSetup& known,
+                            std::uint16_t piece_no, const Cell& cell, std::vector<DrawnCap> caps,
+                            const Context& context) {
     const Cell planned = with_tools(cell, known.setup().tools);
-    ToolpathSettings settings;
-    settings.scallop = cell.machine->program.scallop;
-    settings.fine = fine;
     std::optional<MadeProgram> program;
     try {
         try {
@@ -352,6 +339,52 @@ PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::u
         programs.parts.push_back(std::move(proven));
     }
     return programs;
+}
+
+}  // namespace
+
+std::string no_programs_for(const Cell& cell) {
+    if (!cell.machine) return "the cell file describes no machine";
+    const Dialect dialect = cell.machine->program.dialect;
+    if (dialect == Dialect::krl) return {};
+    return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";
+}
+
+std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {
+    decide_holes(caps, {}, {}, "there is no program: " + none_because);
+    return caps;
+}
+
+std::set<std::uint16_t> too_fast_tools(const std::vector<ProvenProgram>& parts) {
+    std::set<std::uint16_t> tools;
+    for (const ProvenProgram& part : parts) {
+        for (const ProofFinding& finding : part.proof.findings) {
+            if (finding.kind != to_word(FindingKind::removal_rate)) return {};
+            for (const JobChunk& chunk : part.input.program.chunks) {
+                if (chunk.file == finding.file) tools.insert(chunk.tool);
+            }
+        }
+    }
+    return tools;
+}
+
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+                            std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
+    ToolpathSettings settings;
+    settings.scallop = cell.machine->program.scallop;
+    settings.fine = fine;
+    for (int made = 1;; ++made) {
+        PiecePrograms programs = programs_with(settings, piece, known, piece_no, cell, caps, context);
+        const std::set<std::uint16_t> too_fast = too_fast_tools(programs.parts);
+        if (too_fast.empty() || made == most_feeds) return programs;
+        std::string numbers;
+        for (const std::uint16_t number : too_fast) {
+            settings.feed_shares.try_emplace(number, 1).first->second *= slower;
+            numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
+        }
+        context.message("piece " + piece.name + ": the proof finds that tool " + numbers +
+                        " removes foam too fast; its program is made again with less feed");
+    }
 }
 
 }  // namespace qchopper

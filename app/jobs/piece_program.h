@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct PiecePrograms {
     std::optional<BlockPlacement> place = {};
 };
 
+// Numbers of the tools that remove foam too fast (FindingKind::removal_rate) in programs that their proofs refuse for
+// nothing else; else none.
+std::set<std::uint16_t> too_fast_tools(const std::vector<ProvenProgram>& parts);
+
 // Empty for a cell for whose jobs programs can be made, else why not: no machine, or a dialect that cannot be written.
 std::string no_programs_for(const Cell& cell);
 
@@ -38,8 +43,9 @@ std::string no_programs_for(const Cell& cell);
 // finishing. Where a program cannot be made with a hole, this hole is left to the hand. Preconditions: the
 // known setup is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
 // no_programs_for(cell) is empty. Where the machine cannot follow the toolpath the block is placed again, so that it
-// holds the poses of the toolpath too; where that does not help there is no program, and none_because says why. Throws
-// Cancelled.
+// holds the poses of the toolpath too; where that does not help there is no program, and none_because says why. Where
+// the proof finds only that tools remove foam too fast, the programs are made again with less feed of these, which
+// is told as a message. Throws Cancelled.
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
                             std::vector<DrawnCap> caps, const Context& context, FineTools fine = FineTools::worthwhile);
 

@@ -99,6 +99,22 @@ void raise_over_stock(HeightField& cl, const Operation& operation, const Finishi
 ToolOverPiece::ToolOverPiece(HeightField map, const CuttingTool& of)
     : piece(std::move(map)), tool(piece, of, finishing_dilation_options) {}
 
+void PassesLeft::pack() {
+    const auto packed = [](HeightField& map) {
+        PackedHeights result(map.height);
+        map.height = std::vector<float>();  // = {} would keep the memory
+        return result;
+    };
+    packed_piece = packed(over_piece->piece);
+    packed_cl = packed(cl);
+}
+
+void PassesLeft::unpack() {
+    over_piece->piece.height = packed_piece.unpacked();
+    cl.height = packed_cl.unpacked();
+    packed_piece = packed_cl = {};
+}
+
 PassesLeft finishing_operation(Operation operation, const FinishingInput& input, RestMaterial& rest,
                                const Context& context) {
     const Setup& setup = input.setup;

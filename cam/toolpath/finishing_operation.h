@@ -16,6 +16,7 @@
 #include "cam/setup/setup.h"
 #include "cam/stock/cl_surface.h"
 #include "cam/toolpath/finishing/finishing_region.h"
+#include "cam/toolpath/packed_heights.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/toolpath.h"
 #include "cam/toolpath/toolpath_settings.h"
@@ -61,6 +62,12 @@ struct PassesLeft {
     std::vector<Pass> passes;
     std::size_t take = 0;     // of RestMaterial; 0: the surface was given back
     bool has_surface = true;  // false: nothing is left of the piece for it, and its passes go along the floor alone
+    PackedHeights packed_piece = {};  // between pack() and unpack(), in which over_piece->piece and cl are empty
+    PackedHeights packed_cl = {};
+
+    // While it waits among others. O(cells).
+    void pack();
+    void unpack();
 };
 
 // All passes of an operation that has its kind, tool, direction and feeds; stepover, scallop and rounding are set here.

@@ -224,7 +224,9 @@ class ToolpathMaker {
         if (!left.has_surface && !over_stock) is_empty_.insert({tool_index, orientation});
         if (left.passes.empty()) return;
         mill(left);
-        if (!left.passes.empty()) blocked_.push_back(std::move(left));
+        if (left.passes.empty()) return;
+        left.pack();
+        blocked_.push_back(std::move(left));
     }
 
     static double lowest_of(const std::vector<Pass>& passes) {
@@ -272,7 +274,10 @@ class ToolpathMaker {
         for (bool goes_on = true; goes_on;) {
             goes_on = false;
             for (PassesLeft& left : blocked_) {
-                if (left.operation.tool == tool && mill(left) >= worth_a_round) goes_on = true;
+                if (left.operation.tool != tool) continue;
+                left.unpack();
+                if (mill(left) >= worth_a_round) goes_on = true;
+                left.pack();
             }
             std::erase_if(blocked_, [](const PassesLeft& left) { return left.passes.empty(); });
             has_milled = has_milled || goes_on;
@@ -306,7 +311,9 @@ class ToolpathMaker {
             if (length < worth_another) continue;
             context_.check_cancelled();
             const HeightField stock = standing_stock(left.operation.orientation);
+            left.unpack();
             if (give_back(left, finishing_input(left.operation.orientation, tool, &stock), left_)) is_any = true;
+            left.pack();
         }
         return is_any;
     }
@@ -325,6 +332,12 @@ class ToolpathMaker {
 
     Operation new_operation(std::size_t orientation, std::size_t tool, OperationKind kind) const {
         Operation operation = operation_of(machine_, tool, kind, orientation);
+        const CuttingTool& cutter = machine_.tools[tool];
+        const auto share = settings_.feed_shares.find(cutter.number);
+        if (share != settings_.feed_shares.end()) {
+            operation.feed = std::max(cutter.feed_min_mm_per_s, share->second * operation.feed);
+            operation.approach_feed = std::min(operation.approach_feed, operation.feed);
+        }
         operation.retract = retract_height(setup_, setup_.tool_axis(orientation), cell_.clearance);
         return operation;
     }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct ToolpathSettings {
     std::optional<double> beside_block;
     std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
     std::vector<std::size_t> finishing_tools;  // in their order; empty: chosen by choose_tools() and worthwhile_tools()
+    // Of tools by number: the share of their largest feed at which they cut, but no less than their least feed;
+    // others 1.
+    std::map<std::uint16_t, double> feed_shares;
     FineTools fine = FineTools::worthwhile;
     double finest_tool = 0;  // least diameter of those that finish
 };

@@ -71,6 +71,37 @@ TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
     EXPECT_EQ(left, 0U);
 }
 
+TEST(MakeToolpath, AToolWithLessFeedGoesTheSameWay) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 50});
+    const auto setup = setup_of(mesh, 18);
+    const Cell cell = ready_cell();
+    ToolpathSettings settings = coarse_settings();
+    const Toolpath usual = make_toolpath(setup, mesh, cell, settings);
+    const CuttingTool& slowed = cell.machine->tools[usual.operations.front().tool];
+    settings.feed_shares[slowed.number] = 0.6;
+    const double feed = std::max(slowed.feed_min_mm_per_s, 0.6 * slowed.feed_max_mm_per_s);
+    const Toolpath slow = make_toolpath(setup, mesh, cell, settings);
+    ASSERT_EQ(slow.operations.size(), usual.operations.size());
+    for (std::size_t i = 0; i < usual.operations.size(); ++i) {
+        const Operation& now = slow.operations[i];
+        const Operation& before = usual.operations[i];
+        ASSERT_EQ(now.tool, before.tool);
+        const bool is_slowed = now.tool == usual.operations.front().tool;
+        EXPECT_EQ(now.feed, is_slowed ? feed : before.feed);
+        ASSERT_EQ(now.runs.size(), before.runs.size());
+        for (std::size_t r = 0; r < now.runs.size(); ++r) {
+            ASSERT_EQ(now.runs[r].moves.size(), before.runs[r].moves.size());
+            for (std::size_t m = 0; m < now.runs[r].moves.size(); ++m) {
+                const PathMove& move = now.runs[r].moves[m];
+                EXPECT_EQ(move.tip, before.runs[r].moves[m].tip);
+                if (is_slowed && move.kind == MoveKind::cut) {
+                    EXPECT_LE(feed_of(now, move), feed);
+                }
+            }
+        }
+    }
+}
+
 TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
     const Cell cell = ready_cell();
     const auto mill = [&](const TriangleMesh& mesh, double tilt, const std::string& name) {
