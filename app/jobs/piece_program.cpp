@@ -369,7 +369,7 @@ std::set<std::uint16_t> too_fast_tools(const std::vector<ProvenProgram>& parts) 
 }
 
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
-                            std::vector<DrawnCap> caps, const Context& context, FineTools fine) {
+                            const std::vector<DrawnCap>& caps, const Context& context, FineTools fine) {
     ToolpathSettings settings;
     settings.scallop = cell.machine->program.scallop;
     settings.fine = fine;

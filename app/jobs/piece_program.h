@@ -47,7 +47,8 @@ std::string no_programs_for(const Cell& cell);
 // the proof finds only that tools remove foam too fast, the programs are made again with less feed of these, which
 // is told as a message. Throws Cancelled.
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
-                            std::vector<DrawnCap> caps, const Context& context, FineTools fine = FineTools::worthwhile);
+                            const std::vector<DrawnCap>& caps, const Context& context,
+                            FineTools fine = FineTools::worthwhile);
 
 // Caps of a piece that gets no program.
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);

@@ -156,12 +156,14 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
+    const double least_to_hold = least_fall_to_hold_mm2(judge.min_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
+        const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();
         const double min_gain = std::max(judge.min_gain_mm2(), judge.seam_width_mm() * attempt.seam_mm());
-        const bool holds = before - after >= least_fall_to_hold_mm2(min_gain) && attempt.does_every_piece_hold();
-        if (holds || before - after >= min_fall_mm2(*piece, before, min_gain))
+        if (holds || before - after >= min_fall_mm2(*piece, before, min_gain)) {
             return Trial{std::move(attempt.segmentation()), {}};
+        }
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {

@@ -3,9 +3,9 @@
 // mm2. Cuts make a piece better if, within three cuts of it and its descendants, their unreachable area falls by at
 // least 10 % of the piece's, by 0.2 % of the piece's area, by what the finest tool can tell from nothing
 // (PieceChecks::min_gain_mm2), and by the strip along their joints that is finished by hand (seam_width_mm); or if
-// every piece holds the rules then and it falls by a quarter of the last two. One cut may gain nothing. Every cut made
-// is real: nothing is estimated. On what was chosen: docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests:
-// tests/segment/search/trial_test.cpp.
+// every piece holds the rules then and it falls by a quarter of what the finest tool can tell. One cut may gain
+// nothing. Every cut made is real: nothing is estimated. On what was chosen:
+// docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests: tests/segment/search/trial_test.cpp.
 
 #pragma once
 
