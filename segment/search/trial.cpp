@@ -1,11 +1,10 @@
-// Each cut costs the evaluation of one piece, and what the judge asks of the pieces that it makes; its seam a sort of
-// the edges of its caps.
+// Each cut costs the evaluation of one piece, and what the judge asks of the pieces that it makes; its seam a
+// search for each edge of the skin among those of the caps.
 
 #include "segment/search/trial.h"
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -31,29 +30,27 @@ double counted_area(const TriangleMesh& mesh) {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the smaller index first
 
-// Adds the edges of the triangles that `is_wanted` holds of, each as often as it occurs. O(triangles).
-template <class Wanted>
-void add_edges(const TriangleMesh& mesh, const Wanted& is_wanted, std::vector<Edge>& edges) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!is_wanted(cap_of(mesh, t))) continue;
-        const auto& [a, b, c] = mesh.triangles[t];
-        for (const Edge& edge : {std::minmax({a, b}), std::minmax({b, c}), std::minmax({c, a})}) edges.push_back(edge);
-    }
-    std::ranges::sort(edges);
+std::array<Edge, 3> edges_of(const TriangleMesh& mesh, std::size_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return {std::minmax({a, b}), std::minmax({b, c}), std::minmax({c, a})};
 }
 
 // The length of the edges between skin and the caps of cuts with the number `first` or a larger one.
 double seam_mm(const TriangleMesh& mesh, std::int32_t first) {
-    std::vector<Edge> caps;
-    std::vector<Edge> skin;
-    std::vector<Edge> seam;
-    add_edges(
-        mesh, [&](std::int32_t cap) { return cap != no_cap && cap >= first; }, caps);
-    add_edges(
-        mesh, [](std::int32_t cap) { return cap == no_cap; }, skin);
-    std::ranges::set_intersection(caps, skin, std::back_inserter(seam));
+    std::vector<Edge> of_caps;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (cap_of(mesh, t) == no_cap || cap_of(mesh, t) < first) continue;
+        for (const Edge& edge : edges_of(mesh, t)) of_caps.push_back(edge);
+    }
+    std::ranges::sort(of_caps);
     double length = 0;
-    for (const auto& [a, b] : seam) length += norm(mesh.points[b] - mesh.points[a]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (cap_of(mesh, t) != no_cap) continue;
+        for (const Edge& edge : edges_of(mesh, t)) {
+            if (!std::ranges::binary_search(of_caps, edge)) continue;
+            length += norm(mesh.points[edge.first] - mesh.points[edge.second]);
+        }
+    }
     return length;
 }
 
@@ -160,7 +157,8 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     while (true) {
         const double after = attempt.unreachable_mm2();
         const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();
-        const double min_gain = std::max(judge.min_gain_mm2(), judge.seam_width_mm() * attempt.seam_mm());
+        const double by_hand = judge.seam_width_mm() > 0 ? judge.seam_width_mm() * attempt.seam_mm() : 0;
+        const double min_gain = std::max(judge.min_gain_mm2(), by_hand);
         if (holds || before - after >= min_fall_mm2(*piece, before, min_gain)) {
             return Trial{std::move(attempt.segmentation()), {}};
         }
