@@ -47,6 +47,13 @@ void clear_along(FlushFaces& flush, std::size_t axis) {
     }
 }
 
+// Along an axis with flush faces, in steps of flush_step: never less than the piece, because a cell refuses a block
+// that is smaller than what it is to hold, if only by a hundredth. Along z the spoil layer is the room for that.
+double sawn_length(double needed, std::size_t axis) {
+    const double steps = needed / flush_step;
+    return (axis == 2 ? std::round(steps) : std::ceil(steps - rounding)) / steps_per_mm;
+}
+
 // Along an axis without a flush face nothing is sawn off where the rest would be no wider than the saw cut.
 SawnLength whole_mm(double needed, double stock, double kerf) {
     const double whole = std::ceil(needed - rounding);
@@ -84,7 +91,7 @@ std::optional<SawnSize> sawn_to(const Wanted& wanted, const AxisLengths& stock, 
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t faces = sawn_along(flush, axis);
         const double needed = lengths(size_with_foam(wanted.piece, wanted.margins, flush))[axis];
-        const double sawn = std::round(needed / flush_step) / steps_per_mm;
+        const double sawn = sawn_length(needed, axis);
         if (faces > 0 && sawn + static_cast<double>(faces) * kerf <= stock[axis] + rounding) {
             size[axis] = {sawn, static_cast<int>(faces)};
             continue;
