@@ -19,6 +19,7 @@
 #include "bench/other_readers.h"
 #include "bench/specimens.h"
 #include "cam/setup/choose_setup.h"
+#include "cam/setup/layout/lay_out.h"
 #include "cam/setup/reachable_directions.h"
 #include "cam/setup/stock_points.h"
 #include "segment/access/tool_directions.h"
@@ -34,7 +35,7 @@ using namespace qchopper::bench;
 
 constexpr const char* usage = R"(bench_setup [--small] [--only GROUP]...
   --small  100,000 faces instead, to check that it runs; the targets do not apply
-  --only   map, memory, arm or project; all if none is named
+  --only   map, memory, arm, layout or project; all if none is named
 )";
 
 constexpr int runs = 5;
@@ -176,17 +177,52 @@ void measure_arm(Figures& figures) {
     }
 }
 
-// CPU time of one thread.
-void measure_project(std::size_t faces, Figures& figures) {
-    const Measured m = one_shell("sample skull", Specimen::skull, faces);
+// The pieces of 19 cuts.
+Segmentation searched(const Measured& m) {
     SearchSettings settings;
     settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
     settings.stop.min_cuts = 19;
+    Segmentation s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    qchopper::search(s, settings, cache, {}, [](const Segmentation&) {}, {});
+    return s;
+}
+
+// What it takes to find the flush caps of a piece on one base, its turn and its block, beside what it took without
+// blocks that are sawn.
+void measure_layout(std::size_t faces, Figures& figures) {
+    const Cell sawn = ready_cell("kr60-ha");
+    Cell unsawn = sawn;
+    for (Stock& stock : unsawn.stock) stock.is_sawn = false;
+    double most = 0;
+    double most_added = 0;
+    std::size_t bases = 0;
+    for (const Piece& piece : searched(one_shell("sample skull", Specimen::skull, faces)).pieces) {
+        for (const PieceBase& base : bases_of(piece)) {
+            const auto ms_with = [&](const Cell& of) {
+                const double seconds =
+                    best_of(runs, cpu_s, [&] { return lay_out(piece, base, of, caps_to_saw(*piece.mesh, of)); });
+                return 1000 * seconds * 1e5 / static_cast<double>(piece.mesh->triangles.size());
+            };
+            if (!base.base.cut) continue;
+            const double ms = ms_with(sawn);
+            most = std::max(most, ms);
+            most_added = std::max(most_added, ms - ms_with(unsawn));
+            ++bases;
+        }
+    }
+    const std::string name = "pieces of the skull, " + std::to_string(bases) + " bases";
+    figures.record(name, "piece laid out, ms per 100,000 faces, the slowest", number_text(most));
+    figures.at_most(name, "- of it for flush caps, turn and sawn block", most_added, 5);
+}
+
+// CPU time of one thread.
+void measure_project(std::size_t faces, Figures& figures) {
+    const Measured m = one_shell("sample skull", Specimen::skull, faces);
     Segmentation s;
     const double search = best_of(1, cpu_s, [&] {
-        s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
-        EvaluationCache cache(settings.objectives, settings.candidates);
-        return qchopper::search(s, settings, cache, {}, [](const Segmentation&) {}, {}).cost;
+        s = searched(m);
+        return s.pieces.size();
     });
     const Cell ready = ready_cell("irb6640-185-2.8");
     std::size_t maps = 0;
@@ -209,6 +245,7 @@ void measure_project(std::size_t faces, Figures& figures) {
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
     if (choice.wants("project")) measure_project(choice.is_small ? 100'000 : 1'900'000, figures);
+    if (choice.wants("layout")) measure_layout(choice.is_small ? 100'000 : 1'900'000, figures);
     if (choice.wants("arm")) measure_arm(figures);
     if (!choice.wants("map") && !choice.wants("memory")) return;
     const TriangleMesh mesh = piece(choice.is_small ? 100'000 : 1'900'000);

@@ -1,6 +1,7 @@
-// The toolpath of a piece with glue faces that the saw has made, swept against these faces: as they should be, and with
-// the block moved outwards and turned by what a block that is sawn and laid by hand may be off. The faces are small
-// triangles, each with its distance from the rim of its cap; nothing is asked of a grid of foam.
+// The toolpaths of pieces with glue faces that the saw has made, at sides and at the top, swept against these faces: as
+// they should be, and with the block moved outwards and turned by what a block that is sawn and laid by hand may be
+// off. The faces are small triangles, each with its distance from the rim of its cap; nothing is asked of a grid of
+// foam.
 //
 // What keeps them whole are add_floor_band(), which leaves out the floor beyond a sawn face, and clear_of_sawn_faces(),
 // without which contours of the skin go on along the face: up to 11.6 mm from its rim by the 12 mm ball.
@@ -12,10 +13,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numbers>
+#include <utility>
 
+#include "base/units.h"
 #include "cam/toolpath/make_toolpath.h"
+#include "segment/cut/cut.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/plane_frame.h"
+#include "segment/mesh/polygon.h"
 #include "sim/replay/gouge.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 
@@ -28,101 +33,145 @@ constexpr double half = 0.25;    // mm, of the triangle about such a point
 constexpr double extent = 0.36;  // mm, of it about the point
 constexpr double touches = 0.01;
 
-// A body with bumps on top of a flat base, with two sides that are caps: at -x, and at +y.
+constexpr double margin = 8;
+
 struct SawnPiece {
-    TriangleMesh mesh = test_pieces::bumpy(size, 16, 46, 11);
+    TriangleMesh mesh;
     Setup setup;
 
-    SawnPiece() {
-        std::array<double, 2> area{};
+    // Sets cap_of of the triangles whose corners all hold a condition, and lays the cap in a face of the block.
+    template <class Holds>
+    void saw(std::int32_t cut, BlockFace face, const Holds& holds) {
+        double area = 0;
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             const std::array<Vec3, 3> corners = corners_of(mesh, t);
-            const auto are_all = [&](const auto& is) { return std::all_of(corners.begin(), corners.end(), is); };
-            if (are_all([](Vec3 p) { return p.z == 0; })) mesh.cap_of[t] = 0;
-            if (are_all([](Vec3 p) { return p.x == 0; })) mesh.cap_of[t] = 1;
-            if (are_all([](Vec3 p) { return p.y == size; })) mesh.cap_of[t] = 2;
-            if (mesh.cap_of[t] > 0) area[static_cast<std::size_t>(mesh.cap_of[t] - 1)] += norm(area_vector(mesh, t));
+            if (!std::all_of(corners.begin(), corners.end(), holds)) continue;
+            mesh.cap_of[t] = cut;
+            area += norm(area_vector(mesh, t));
         }
-        constexpr double margin = 8;
+        if (cut > 0) setup.flush_caps.push_back({cut, face, area});
+    }
+
+    // A body with bumps on top of a flat base.
+    explicit SawnPiece(TriangleMesh body) : mesh(std::move(body)) {
         setup = test_pieces::setup_of(mesh, margin, 40);
         setup.access.orientations.push_back({{-std::sin(0.7), 0, std::cos(0.7)}, 40, 0, 0});
         setup.base = 0;
-        setup.flush_caps = {{1, BlockFace::minus_x, area[0]}, {2, BlockFace::plus_y, area[1]}};
-        setup.block.size = setup.block.size - Vec3{margin, margin, 0};
-        const Vec3 by{-0.5 * margin, 0.5 * margin, 0};
-        setup.piece_in_setup.shift = setup.piece_in_setup.shift + by;
-        setup.box = {setup.box.min + by, setup.box.max + by};
+        saw(0, BlockFace::top, [](Vec3 p) { return p.z == 0; });
     }
 };
 
-// Points of the two caps, in setup coordinates.
+// Two sides are caps: at -x, and at +y.
+SawnPiece sawn_at_sides() {
+    SawnPiece piece(test_pieces::bumpy(size, 16, 46, 11));
+    piece.saw(1, BlockFace::minus_x, [](Vec3 p) { return p.x == 0; });
+    piece.saw(2, BlockFace::plus_y, [](Vec3 p) { return p.y == size; });
+    Setup& setup = piece.setup;
+    setup.block.size = setup.block.size - Vec3{margin, margin, 0};
+    const Vec3 by{-0.5 * margin, 0.5 * margin, 0};
+    setup.piece_in_setup.shift = setup.piece_in_setup.shift + by;
+    setup.box = {setup.box.min + by, setup.box.max + by};
+    return piece;
+}
+
+// Cut off through its bumps: the cap is the top, with valleys of skin in it.
+SawnPiece sawn_at_top() {
+    constexpr double high = 24.01;
+    SawnPiece piece(cut(test_pieces::bumpy(size, 16, 46, 11), {{0, 0, 1}, high}, 1)->below.mesh);
+    piece.saw(1, BlockFace::top, [](Vec3 p) { return std::abs(p.z - high) < 1e-9; });
+    piece.setup.block.size.z -= margin;
+    return piece;
+}
+
+double distance(Point2 p, Point2 a, Point2 b) {
+    const Point2 along{b.x - a.x, b.y - a.y};
+    const double square = along.x * along.x + along.y * along.y;
+    const double t = std::clamp(((p.x - a.x) * along.x + (p.y - a.y) * along.y) / square, 0.0, 1.0);
+    return std::hypot(a.x + t * along.x - p.x, a.y + t * along.y - p.y);
+}
+
+// Points of the flush caps, in setup coordinates.
 struct GlueFaces {
     struct Point {
         Vec3 at;
         Vec3 outward;
-        Vec3 middle;  // of its face
+        Vec3 u;        // in the face
+        Vec3 in_face;  // from the middle of its face
         double from_rim = 0;
     };
     std::vector<Point> points;
 
     explicit GlueFaces(const SawnPiece& piece) {
-        add(piece, 1, {-1, 0, 0}, {0, 1, 0});
-        add(piece, 2, {0, 1, 0}, {1, 0, 0});
+        for (const FlushCap& cap : piece.setup.flush_caps) add(piece, cap.cut);
     }
 
-    // As triangles, moved outwards and turned about the vertical through the middle of their face.
+    // As triangles, moved outwards and turned in their face's middle about its v.
     TriangleMesh triangles(double outwards, double turn) const {
         TriangleMesh mesh;
         for (const Point& point : points) {
-            const Vec3 along = cross({0, 0, 1}, point.outward);
-            const Vec3 at = point.at + (outwards + turn * dot(along, point.at - point.middle)) * point.outward;
+            const Vec3 v = cross(point.outward, point.u);
+            const Vec3 at = point.at + (outwards + turn * dot(point.u, point.in_face)) * point.outward;
             const auto first = static_cast<std::uint32_t>(mesh.points.size());
-            mesh.points.push_back(at - half * along - Vec3{0, 0, half});
-            mesh.points.push_back(at + half * along - Vec3{0, 0, half});
-            mesh.points.push_back(at + Vec3{0, 0, half});
+            mesh.points.push_back(at - half * point.u - half * v);
+            mesh.points.push_back(at + half * point.u - half * v);
+            mesh.points.push_back(at + half * v);
             mesh.triangles.push_back({first, first + 1, first + 2});
         }
         return mesh;
     }
 
  private:
-    // A cap that stands on the base, along a horizontal direction: under the upper edge of its outline.
-    void add(const SawnPiece& piece, std::int32_t cut, Vec3 outward, Vec3 along) {
-        std::map<double, double> height;  // by the place along
-        Vec3 corner;
+    using Corners = std::array<Point2, 3>;
+
+    // Whether a triangle, counter-clockwise, holds a point.
+    static bool holds(const Corners& corners, Point2 p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point2 a = corners[k];
+            const Point2 b = corners[(k + 1) % 3];
+            if ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) < 0) return false;
+        }
+        return true;
+    }
+
+    void add(const SawnPiece& piece, std::int32_t cut) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<Point2, 2>> rim;  // edges without a neighbour
+        std::vector<Corners> triangles;
+        Rectangle2 box;
+        Vec3 origin;
+        Vec3 outward;
+        PlaneFrame frame;
         for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
             if (piece.mesh.cap_of[t] != cut) continue;
-            for (const Vec3& in_piece : corners_of(piece.mesh, t)) {
-                corner = apply(piece.setup.piece_in_setup, in_piece);
-                double& z = height[dot(along, corner)];
-                z = std::max(z, corner.z);
+            if (triangles.empty()) {
+                outward = normalized(rotate(piece.setup.piece_in_setup, area_vector(piece.mesh, t)));
+                frame = frame_across(outward);
+                const Vec3 at = apply(piece.setup.piece_in_setup, corners_of(piece.mesh, t)[0]);
+                origin = dot(outward, at) * outward;
             }
+            Corners corners;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 at = apply(piece.setup.piece_in_setup, corners_of(piece.mesh, t)[k]);
+                corners[k] = {dot(frame.u, at), dot(frame.v, at)};
+                box.include(corners[k]);
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t from = piece.mesh.triangles[t][k];
+                const std::uint32_t to = piece.mesh.triangles[t][(k + 1) % 3];
+                if (rim.erase({to, from}) == 0) rim[{from, to}] = {corners[k], corners[(k + 1) % 3]};
+            }
+            triangles.push_back(corners);
         }
-        const Vec3 origin = dot(outward, corner) * outward;
-        const double low = height.begin()->first;
-        const double high = height.rbegin()->first;
-        const auto height_at = [&](double u) {
-            const auto next = height.lower_bound(u);
-            if (next == height.begin()) return next->second;
-            const auto before = std::prev(next);
-            const double share = (u - before->first) / (next->first - before->first);
-            return before->second + share * (next->second - before->second);
-        };
-        std::vector<std::array<double, 2>> rim;
-        constexpr double rim_step = 0.1;
-        for (double u = low; u <= high; u += rim_step) {
-            rim.push_back({u, 0});
-            rim.push_back({u, height_at(u)});
-        }
-        for (const double u : {low, high}) {
-            for (double z = 0; z <= height_at(u); z += rim_step) rim.push_back({u, z});
-        }
-        const Vec3 middle = origin + 0.5 * (low + high) * along;
-        for (double u = low + 0.5 * spacing; u < high; u += spacing) {
-            for (double z = 0.5 * spacing; z < height_at(u); z += spacing) {
+        const Point2 middle{0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y)};
+        for (double x = box.min.x + 0.5 * spacing; x < box.max.x; x += spacing) {
+            for (double y = box.min.y + 0.5 * spacing; y < box.max.y; y += spacing) {
+                const Point2 p{x, y};
+                if (std::none_of(triangles.begin(), triangles.end(), [&](const Corners& c) { return holds(c, p); })) {
+                    continue;
+                }
                 double nearest = 1e9;
-                for (const auto& [v, w] : rim) nearest = std::min(nearest, std::hypot(u - v, z - w));
-                points.push_back({origin + u * along + Vec3{0, 0, z}, outward, middle, nearest});
+                for (const auto& [edge, ends] : rim) nearest = std::min(nearest, distance(p, ends[0], ends[1]));
+                points.push_back({origin + x * frame.u + y * frame.v, outward, frame.u,
+                                  (x - middle.x) * frame.u + (y - middle.y) * frame.v, nearest});
             }
         }
     }
@@ -178,63 +227,98 @@ Taken taken(const Toolpath& path, std::size_t tool, const GlueFaces& faces, cons
     return result;
 }
 
-struct SawnBlock : ::testing::Test {
-    static inline const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
-    static inline const SawnPiece piece;
-    static inline const GlueFaces faces{piece};
-
-    static Toolpath made(const qchopper::Setup& setup) {
-        ToolpathSettings settings;
-        settings.cell = 0.5;
-        return make_toolpath(setup, piece.mesh, cell, settings);
-    }
-    static const Toolpath& path() {
-        static const Toolpath toolpath = made(piece.setup);
-        return toolpath;
-    }
-    static double radius(std::size_t tool) { return 0.5 * cell.machine->tools[tool].diameter; }
-    static std::string name(std::size_t tool) { return "tool " + std::to_string(cell.machine->tools[tool].number); }
-
-    // The most by which a tool goes farther in than a radius and 2 mm, where the block is off.
-    static double too_far_in(const Toolpath& toolpath) {
-        double most = -1e9;
-        for (std::size_t tool = 0; tool < cell.machine->tools.size(); ++tool) {
-            for (const double degrees : {0.0, 0.05, -0.05}) {
-                const Taken off = taken(toolpath, tool, faces, piece, cell, 0.5, degrees * std::numbers::pi / 180);
-                if (off.deepest == 0) continue;
-                std::printf("%s, turned by %.2f degrees: %.2f mm, up to %.1f mm from the rim\n", name(tool).c_str(),
-                            degrees, off.deepest, off.farthest_in);
-                most = std::max(most, off.farthest_in - radius(tool) - 2);
-            }
-        }
-        return most;
-    }
-};
-
-TEST_F(SawnBlock, HasPointsFarFromTheRims) {
-    double farthest = 0;
-    for (const GlueFaces::Point& point : faces.points) farthest = std::max(farthest, point.from_rim);
-    EXPECT_GT(farthest, 13) << "more than the radius of the widest tool and 2 mm";
+const Cell& cell() {
+    static const Cell read = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    return read;
 }
 
-TEST_F(SawnBlock, NoToolCutsIntoAGlueFace) {
-    for (std::size_t tool = 0; tool < cell.machine->tools.size(); ++tool) {
-        const Taken as_planned = taken(path(), tool, faces, piece, cell, 0, 0);
+Toolpath made(const Setup& setup, const SawnPiece& piece) {
+    ToolpathSettings settings;
+    settings.cell = 0.5;
+    return make_toolpath(setup, piece.mesh, cell(), settings);
+}
+
+// A piece with its toolpath.
+struct Sawn {
+    SawnPiece piece;
+    GlueFaces faces{piece};
+    Toolpath path = made(piece.setup, piece);
+};
+
+const Sawn& at_sides() {
+    static const Sawn made_once{sawn_at_sides()};
+    return made_once;
+}
+
+const Sawn& at_top() {
+    static const Sawn made_once{sawn_at_top()};
+    return made_once;
+}
+
+double radius(std::size_t tool) {
+    return 0.5 * cell().machine->tools[tool].diameter;
+}
+
+std::string name(std::size_t tool) {
+    return "tool " + std::to_string(cell().machine->tools[tool].number);
+}
+
+// The most by which a tool goes farther in than a radius and 2 mm, where the block is off.
+double too_far_in(const Toolpath& path, const Sawn& of) {
+    double most = -1e9;
+    for (std::size_t tool = 0; tool < cell().machine->tools.size(); ++tool) {
+        for (const double degrees : {0.0, 0.05, -0.05}) {
+            const Taken off = taken(path, tool, of.faces, of.piece, cell(), 0.5, radians(degrees));
+            if (off.deepest == 0) continue;
+            std::printf("%s, turned by %.2f degrees: %.2f mm, up to %.1f mm from the rim\n", name(tool).c_str(),
+                        degrees, off.deepest, off.farthest_in);
+            most = std::max(most, off.farthest_in - radius(tool) - 2);
+        }
+    }
+    return most;
+}
+
+// At two sides, and at the top.
+struct SawnBlock : ::testing::TestWithParam<bool> {
+    const Sawn& block = GetParam() ? at_top() : at_sides();
+};
+
+TEST_P(SawnBlock, HasPointsFarFromTheRims) {
+    double farthest = 0;
+    for (const GlueFaces::Point& point : block.faces.points) farthest = std::max(farthest, point.from_rim);
+    EXPECT_GT(farthest, GetParam() ? 8 : 13) << "more than the radius of a tool and 2 mm";
+}
+
+TEST_P(SawnBlock, NoToolCutsIntoAGlueFace) {
+    for (std::size_t tool = 0; tool < cell().machine->tools.size(); ++tool) {
+        const Taken as_planned = taken(block.path, tool, block.faces, block.piece, cell(), 0, 0);
         EXPECT_LE(as_planned.deepest, 0.25) << name(tool);
         EXPECT_EQ(as_planned.deepest_inside, 0) << name(tool) << ": more than 0.01 mm";
     }
 }
 
-TEST_F(SawnBlock, OffByHalfAMillimetreItKeepsItsGlueFacesButForTheirRims) {
-    EXPECT_LE(too_far_in(path()), 0);
+TEST_P(SawnBlock, OffByHalfAMillimetreItKeepsItsGlueFacesButForTheirRims) {
+    EXPECT_LE(too_far_in(block.path, block), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Faces, SawnBlock, ::testing::Bool(),
+                         [](const auto& is_at_top) { return is_at_top.param ? "Top" : "Sides"; });
 
 // The caps are said to lie in the top of the block: then they are no surface to mill either, and neither of the two
 // knows of them, so that band and contours go along them as along any wall.
-TEST_F(SawnBlock, WithBandAndContoursAlongThemTheFacesAreMilled) {
-    qchopper::Setup setup = piece.setup;
+TEST(SawnBlockWithBand, AndContoursAlongThemTheFacesAreMilled) {
+    const Sawn& block = at_sides();
+    auto setup = block.piece.setup;
     for (FlushCap& cap : setup.flush_caps) cap.face = BlockFace::top;
-    EXPECT_GT(too_far_in(made(setup)), 2);
+    EXPECT_GT(too_far_in(made(setup, block.piece), block), 2);
+}
+
+// The cap at the top is said to be none of a face: passes go over it as over any surface.
+TEST(SawnBlockWithPasses, OverItTheTopIsMilled) {
+    const Sawn& block = at_top();
+    auto setup = block.piece.setup;
+    setup.flush_caps.clear();
+    EXPECT_GT(too_far_in(made(setup, block.piece), block), 0);
 }
 
 }  // namespace
