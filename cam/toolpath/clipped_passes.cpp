@@ -10,51 +10,17 @@
 #include <utility>
 
 #include "cam/stock/cl_surface.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "segment/raster/disc_dilation.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double min_part = 2;       // mm of a part of a pass that is worth a way there
-constexpr double square = 8;         // cells of foam on each side
-constexpr float rounding = 1e-3F;    // mm, of heights in single precision
-constexpr double min_length = 1e-6;  // mm; rounding leaves less
+constexpr double square = 8;       // cells of foam on each side
+constexpr float rounding = 1e-3F;  // mm, of heights in single precision
 // A ball whose centre is so much less than a radius beyond a sawn face still touches skin beside its rim.
 constexpr double inside_sawn_face = 0.3;  // mm
 constexpr double sawn_step = 0.5;         // mm, between points of passes that are asked
-
-// Of a pass, in mm from its beginning.
-struct Stretch {
-    double from = 0;
-    double to = 0;
-};
-
-// Where the tip may not be, asked at most so far apart. The line to such a point belongs to it.
-template <class IsFree>
-std::vector<Stretch> blocked_stretches(const Pass& pass, double apart, const IsFree& is_free) {
-    std::vector<Stretch> blocked;
-    bool was_free = is_free(pass.points[0].tip);
-    if (!was_free) blocked.push_back({});
-    double begin = 0;
-    double before = 0;
-    for (std::size_t i = 1; i < pass.points.size(); ++i) {
-        const Vec3 from = pass.points[i - 1].tip;
-        const Vec3 way = pass.points[i].tip - from;
-        const double length = norm(way);
-        const auto samples = static_cast<std::size_t>(length / apart) + 1;
-        for (std::size_t k = 1; k <= samples; ++k) {
-            const double share = static_cast<double>(k) / static_cast<double>(samples);
-            const bool now_free = is_free(from + share * way);
-            const double at = begin + share * length;
-            if (was_free && !now_free) blocked.push_back({before, at});
-            if (!was_free) blocked.back().to = at;
-            was_free = now_free;
-            before = at;
-        }
-        begin += length;
-    }
-    return blocked;
-}
 
 // None is short, and none is near to another or to an end of the pass: short parts would be milled never, not even when
 // all foam is gone.
@@ -73,41 +39,6 @@ std::vector<Stretch> without_short_parts(const std::vector<Stretch>& blocked, do
     }
     return wide;
 }
-
-// Cuts stretches out of a pass, one after the other.
-class PassCutter {
- public:
-    explicit PassCutter(const Pass& pass) : pass_(pass) {}
-
-    // From where the one before has ended.
-    Pass up_to(double end) {
-        Pass part;
-        part.points.push_back(here_);
-        while (next_ < pass_.points.size()) {
-            const PassPoint& point = pass_.points[next_];
-            const double length = norm(point.tip - here_.tip);
-            if (at_ + length > end) {
-                here_ = {here_.tip + ((end - at_) / length) * (point.tip - here_.tip), false};
-                break;
-            }
-            at_ += length;
-            here_ = point;
-            ++next_;
-            part.points.push_back(point);
-        }
-        if (norm(here_.tip - part.points.back().tip) > min_length) part.points.push_back(here_);
-        at_ = end;
-        here_.is_rounded = false;
-        part.points.back().is_rounded = false;
-        return part;
-    }
-
- private:
-    const Pass& pass_;
-    double at_ = 0;
-    std::size_t next_ = 1;
-    PassPoint here_ = pass_.points[0];
-};
 
 template <class IsFree>
 ClippedPasses divided(const std::vector<Pass>& passes, double apart, const IsFree& is_free) {
@@ -135,16 +66,6 @@ ClippedPasses divided(const std::vector<Pass>& passes, double apart, const IsFre
     }
     return parts;
 }
-
-}  // namespace
-
-double length_of(const std::vector<Pass>& passes) {
-    double length = 0;
-    for (const Pass& pass : passes) length += length_of(pass);
-    return length;
-}
-
-namespace {
 
 // For squares of cells of foam, a height of the tip from which on neither the holder nor the flute is blocked anywhere
 // in the square.

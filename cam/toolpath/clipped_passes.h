@@ -29,8 +29,6 @@ struct ClippedPasses {
 
 ClippedPasses clipped(const std::vector<Pass>& passes, const MillingSpace& space, const CuttingTool& tool);
 
-double length_of(const std::vector<Pass>& passes);
-
 constexpr double touching = 1.5;  // mm of air at most under a tool that counts as touching
 
 // The parts of passes along which a tool is touching, where `cl` is the CL surface of the tool alone: where holder or

@@ -34,9 +34,11 @@
 #include "cam/stock/in_process_stock.h"
 #include "cam/stock/roughing_limit.h"
 #include "cam/toolpath/clipped_passes.h"
+#include "cam/toolpath/cutting_parts.h"
 #include "cam/toolpath/finishing/finishing_region.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_operation.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "cam/toolpath/roughing.h"
 #include "cam/toolpath/run_motion.h"
 #include "cam/toolpath/toolpath_linker.h"
@@ -48,6 +50,8 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
 constexpr double min_stock_cell = 0.5;
+// Of the scallop height, foam that finishing leaves rather than come for it: lower than what it leaves between passes.
+constexpr double film_share = 0.8;
 constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
 constexpr int max_given_back = 2;      // times, of each kind of finishing
 constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
@@ -250,6 +254,7 @@ class ToolpathMaker {
         }
         LinkOptions links;
         links.within = settings_.path_tolerance;
+        links.film = film_share * left.operation.scallop;
         ToolpathLinker runs(space, tool, left.operation, links);
         double milled = 0;
         while (!left.passes.empty()) {
@@ -260,7 +265,7 @@ class ToolpathMaker {
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);
             milled += length;
-            runs.add(parts.free);
+            runs.add(cutting_parts(parts.free, space.centre_stock, tool, links.film));
             if (length < worth_a_round) break;
         }
         add(left.operation, space, runs.finish());

@@ -11,7 +11,9 @@
 #include <numbers>
 #include <optional>
 
+#include "cam/toolpath/cutting_parts.h"
 #include "cam/toolpath/pass_order.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "cam/toolpath/run_motion.h"
 #include "segment/raster/bilinear_cell.h"
 #include "segment/raster/disc_dilation.h"
@@ -46,12 +48,6 @@ std::vector<Vec3> beginning_of(const Pass& pass, double length) {
 }
 
 }  // namespace
-
-double length_of(const Pass& pass) {
-    double length = 0;
-    for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
-    return length;
-}
 
 // What is on a straight line from the tip to another place.
 struct ToolpathLinker::Way {
@@ -321,6 +317,7 @@ void ToolpathLinker::add(const std::vector<Pass>& passes) {
             const double more = norm(other - at_) - norm(pass.points[0].tip - at_);
             if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
         }
+        if (options_.film > 0 && !is_cutting(pass, space_->centre_stock, *tool_, options_.film)) continue;
         add_pass(pass);
     }
 }

@@ -43,8 +43,6 @@ struct MillingSpace {
     std::function<bool(Vec3)> is_beside_sawn_face = {};
 };
 
-double length_of(const Pass& pass);
-
 // Within so much of its rim, a tool may graze foam that is higher than its flute: no centre of a cell may lie there.
 constexpr double flute_rim = 0.25;  // mm
 
@@ -54,7 +52,8 @@ struct LinkOptions {
     double gap = 2;          // above foam, where an approach begins
     double clearance = 3;    // above what a link goes over
     double slack = 0.36;     // how far a controller that rounds corners may pass beside the way
-    double within = 0.1;     // the same within a pass of finishing that does not say itself what may be rounded
+    double film = 0;  // foam so high is none: a pass that cuts no more is left out (cutting_parts.h); 0: all are made
+    double within = 0.1;  // the same within a pass of finishing that does not say itself what may be rounded
 };
 
 class ToolpathLinker {

@@ -13,6 +13,7 @@
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/pass_order.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "cam/toolpath/roughing_passes.h"
 #include "cam/toolpath/toolpath_linker.h"
 #include "segment/raster/disc_dilation.h"
@@ -289,6 +290,32 @@ TEST(ToolpathLinker, NoRunIsTooLongForAChunk) {
     const std::vector<PathRun> runs = builder.finish();
     EXPECT_GE(runs.size(), 3U);
     for (const PathRun& run : runs) EXPECT_LE(run.moves.size(), 1000U);
+}
+
+// The second pass lies where the first has cut, which is known only when the first has been made.
+TEST(ToolpathLinker, APassThatAnotherHasMilledIsNotMade) {
+    const CuttingTool tool = ball_tool(12);
+    const auto cut_length = [&](double film) {
+        Plate plate;
+        for (HeightField* foam : {&plate.space.stock, &plate.space.centre_stock}) {
+            std::fill(foam->height.begin(), foam->height.end(), 13.0F);
+        }
+        LinkOptions options;
+        options.film = film;
+        ToolpathLinker builder(plate.space, tool, plate.operation, options);
+        builder.add({line({50, 60, 12}, {100, 60, 12}), line({100, 60.02, 12}, {50, 60.02, 12})});
+        double length = 0;
+        for (const PathRun& run : builder.finish()) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                if (move.tip.z == 12 && at.z == 12) length += norm(move.tip - at);
+                at = move.tip;
+            }
+        }
+        return length;
+    };
+    EXPECT_NEAR(cut_length(0), 100, 1);
+    EXPECT_NEAR(cut_length(0.5), 50, 1);
 }
 
 TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
