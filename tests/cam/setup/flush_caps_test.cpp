@@ -282,8 +282,30 @@ TEST(FlushCaps, TheTurnIsTheBestOfManyTriedOneByOne) {
     }
 }
 
+TEST(FlushCaps, ASliverOfACapIsFlush) {
+    const Piece piece = cut_by(hundred_mm_ball(), {{{0, 0, 1}, -40}, {{1, 0, 0}, -99.2}});
+    const Cell cell = sawn_cell();
+    const qchopper::Setup setup = laid(piece, cell, 1);
+    ASSERT_EQ(setup.flush_caps.size(), 1U);
+    EXPECT_EQ(setup.flush_caps.front().cut, 2);
+    EXPECT_LT(setup.flush_caps.front().area_mm2, 500);
+    EXPECT_GT(setup.flush_caps.front().area_mm2, 10);
+    expect_whole(piece, setup, cell, "sliver");
+}
+
+// A base as small as may be: about an eighth of what the piece covers.
+TEST(FlushCaps, SidesOverASmallBaseAreFlush) {
+    const Piece piece = cut_by(hundred_mm_ball(), {{{0, 0, 1}, -95.5}, {{1, 0, 0}, -50}, {{0, 1, 0}, -50}});
+    const Cell cell = sawn_cell();
+    const qchopper::Setup setup = laid(piece, cell, 1);
+    EXPECT_LT(setup.base_mm2, 0.15 * setup.projected_area_mm2);
+    EXPECT_EQ(faces_of(setup).size(), 2U);
+    expect_whole(piece, setup, cell, "small base");
+}
+
 TEST(FlushCaps, BasesAreRankedByAreaOutOfReachNotByShare) {
     // On its base cap of the largest area fewer caps are milled, so that the same area out of reach is a larger share.
+    int disagree = 0;  // bases with a smaller share and more area than the one that is taken
     for (const Piece& piece : test_pieces::cut_shapes()) {
         if (piece.half_spaces.size() < 2) continue;
         Cell cell = sawn_cell();
@@ -299,8 +321,12 @@ TEST(FlushCaps, BasesAreRankedByAreaOutOfReachNotByShare) {
             if (!check_stock_fit(other, cell).fits()) continue;
             EXPECT_LE(setups.front().access.unreachable_mm2(), other.access.unreachable_mm2() + 0.0011 * whole)
                 << piece.name;
+            const SurfaceAccess& taken = setups.front().access;
+            const bool is_less_by_share = other.access.unreachable_share() < taken.unreachable_share();
+            if (is_less_by_share && other.access.unreachable_mm2() > taken.unreachable_mm2()) ++disagree;
         }
     }
+    EXPECT_GT(disagree, 0) << "no piece tells the two rules apart";
 }
 
 TEST(FlushCaps, AreaToMillIsTheMeshWithoutBaseAndFlushCaps) {
