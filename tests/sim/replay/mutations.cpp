@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "tests/sim/replay/program_text.h"
@@ -120,6 +121,40 @@ auto lose_operation(const std::string& operation, bool is_last) {
         lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(*found));
         return true;
     };
+}
+
+// A change of all chunks that rough.
+Mutation in_roughing(const std::string& name, const Change& change) {
+    return of_files(name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+        ProgramFiles changed = files;
+        bool is_changed = false;
+        for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) {
+            if (files[i].text.find(";operation roughing\r\n") == std::string::npos) continue;
+            Lines lines = lines_of(files[i].text);
+            if (!change(lines)) continue;
+            changed[i].text = text_of(lines);
+            is_changed = true;
+        }
+        return is_changed ? std::optional(changed) : std::nullopt;
+    });
+}
+
+// The highest level is cut at the height of the next one.
+bool double_depth(Lines& lines) {
+    constexpr std::size_t points_of_level = 5;
+    std::map<double, std::size_t> points;  // by height
+    for (const std::size_t place : lin_places(lines)) ++points[component_of(lines[place], "Z")];
+    std::vector<double> levels;  // from the lowest on
+    for (const auto& [height, count] : points) {
+        if (count >= points_of_level) levels.push_back(height);
+    }
+    if (levels.size() < 2) return false;
+    const double highest = levels.back();
+    const double next = levels[levels.size() - 2];
+    for (const std::size_t place : lin_places(lines)) {
+        change_number(lines[place], "Z", [&](double z) { return z == highest ? next : z; });
+    }
+    return true;
 }
 
 std::optional<ProgramFiles> swap_chunks(const ProgramFiles& files) {
@@ -239,7 +274,7 @@ void add_speeds(std::vector<Mutation>& all) {
     all.push_back(everywhere("feed_by_60", each_value("$vel.cp", times(1.0 / 60))));
     // 150 mm/s is within the window of the tools that rough.
     all.push_back(
-        in_one_chunk("full_feed_in_full_cuts", each_value("$vel.cp", [](double v) { return v < 0.15 ? 0.15 : v; })));
+        in_roughing("full_feed_in_full_cuts", each_value("$vel.cp", [](double v) { return v < 0.15 ? 0.15 : v; })));
     all.push_back(
         everywhere("rounded_2_mm_farther", each_value("$apo.cdis", [](double v) { return v > 0 ? v + 2 : v; })));
     all.push_back(everywhere("rounding_times_20", [](Lines& lines) {
@@ -311,6 +346,7 @@ void add_chunks(std::vector<Mutation>& all) {
     all.push_back(in_main("first_roughing_lost", lose_operation("roughing", false)));
     all.push_back(in_main("last_roughing_lost", lose_operation("roughing", true)));
     all.push_back(in_main("last_fine_finishing_lost", lose_operation("fine finishing", true)));
+    all.push_back(in_roughing("depth_doubled", double_depth));
     all.push_back(of_files("chunks_exchanged", swap_chunks));
     all.push_back(in_main("calls_exchanged", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
         if (calls.size() < 2) return false;
