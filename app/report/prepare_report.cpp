@@ -125,6 +125,31 @@ Json piece_json(const PieceReport& piece, const PreparedProject& of) {
     return json;
 }
 
+// What saw and robot have to do, where blocks are sawn: areas of caps by how they are made.
+std::string caps_line(const PreparedProject& prepared) {
+    double base_mm2 = 0;
+    double flush_mm2 = 0;
+    double milled_mm2 = 0;
+    double to_mill_mm2 = 0;
+    double foam_mm3 = 0;
+    std::size_t flush = 0;
+    for (const PieceReport& piece : prepared.pieces) {
+        const Setup& setup = piece.piece_setup.setup();
+        base_mm2 += setup.base_mm2;
+        flush += setup.flush_caps.size();
+        for (const FlushCap& cap : setup.flush_caps) flush_mm2 += cap.area_mm2;
+        milled_mm2 += setup.milled_caps_mm2;
+        to_mill_mm2 += setup.access.area_mm2;
+        const Vec3 size = setup.milled_box().size();
+        foam_mm3 += std::max(0.0, size.x * size.y * size.z - piece.volume_mm3);
+    }
+    constexpr double m2 = 1e6;     // mm2
+    constexpr double litre = 1e6;  // mm3
+    return "Caps: bases of " + fixed(base_mm2 / m2, 2) + " m2 are parted, " + counted(flush, "flush cap") + " of " +
+           fixed(flush_mm2 / m2, 2) + " m2 sawn, " + fixed(milled_mm2 / m2, 2) + " m2 milled; with the skin " +
+           fixed(to_mill_mm2 / m2, 2) + " m2 are to mill, and " + fixed(foam_mm3 / litre, 0) + " l of foam to remove.";
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const PreparedProject& prepared) {
@@ -178,6 +203,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
         "and "
         "its depth; workholding: whether table, foam and base hold the piece while it is carved.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
+    if (is_any_sawn(prepared.cell) && !prepared.pieces.empty()) lines.push_back(caps_line(prepared));
     for (const std::string& line : joint_lines(prepared.joints)) lines.push_back(line);
     for (const std::string& line : scan_lines(prepared.project)) lines.push_back(line);
     if (const std::string line = fragments_line(prepared.project); !line.empty()) lines.push_back(line);

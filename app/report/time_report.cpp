@@ -38,6 +38,15 @@ std::string roughing_words(const std::vector<MachineTime>& rows) {
            fixed(roughing.removed_mm3 / at_rate_s / cm3, 1);
 }
 
+// Of all lines of the programs.
+std::string path_words(const MachineTime& all) {
+    const double path_mm = all.cutting_mm + all.air_mm + all.link_mm;
+    if (path_mm <= 0 || all.lines == 0) return {};
+    return "; " + fixed(100 * (all.air_mm + all.link_mm) / path_mm, 0) + " % of the path removes nothing, " +
+           fixed(100 * static_cast<double>(all.stops) / static_cast<double>(all.lines), 1) +
+           " % of the lines stop exactly";
+}
+
 }  // namespace
 
 std::vector<MachineTime> merged(const std::vector<MachineTime>& rows) {
@@ -69,7 +78,7 @@ std::string time_line(const std::vector<MachineTime>& rows) {
     line += " cutting " + hours(all.cutting_s) + ", air " + hours(all.air_s) + ", links " + hours(all.link_s) +
             ", acceleration and stops " + hours(all.acceleration_s) + ", joint moves " + hours(all.joint_move_s) +
             ", tool changes " + hours(all.tool_change_s);
-    return line + roughing_words(rows) + ".";
+    return line + roughing_words(rows) + path_words(all) + ".";
 }
 
 void add_time(nlohmann::ordered_json& document, const std::vector<MachineTime>& rows) {

@@ -47,6 +47,31 @@ TEST(PrepareReport, CountsJobFilesAndSaysOfHowManyPiecesWhereAPieceHasSeveral) {
     EXPECT_TRUE(has_line(prepared, "Next: qchopper setup p.qch"));
 }
 
+TEST(PrepareReport, WhereBlocksAreSawnAreasOfCapsAndFoamAreAddedUp) {
+    PreparedProject prepared = some_project();
+    const auto has_caps = [&] {
+        const std::vector<std::string> lines = table(prepared);
+        return std::ranges::any_of(lines, [](const std::string& line) { return line.starts_with("Caps:"); });
+    };
+    EXPECT_FALSE(has_caps());
+    prepared.cell.stock[0].is_sawn = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto& setup = prepared.pieces[i].piece_setup.choice.setups[0];
+        setup.base_mm2 = 1e6;
+        setup.milled_caps_mm2 = 2e4;
+        setup.flush_caps = {{2, BlockFace::top, 3e5}};
+        setup.access.area_mm2 = 1.5e6;
+        setup.spoil = 10;
+        setup.block.size = {1000, 500, 410};
+        prepared.pieces[i].volume_mm3 = 0.15e9;
+    }
+    prepared.pieces[0].piece_setup.choice.setups[0].flush_caps.push_back({3, BlockFace::plus_x, 1e5});
+    EXPECT_TRUE(
+        has_line(prepared,
+                 "Caps: bases of 2.00 m2 are parted, 3 flush caps of 0.70 m2 sawn, 0.04 m2 milled; with the skin "
+                 "3.00 m2 are to mill, and 100 l of foam to remove."));
+}
+
 TEST(PrepareReport, APieceWithoutItsProgramNamesTheNextStep) {
     PreparedProject prepared = some_project();
     prepared.pieces.pop_back();

@@ -58,13 +58,18 @@ TEST(TimeReport, SaysWhereTheHoursOfAllJobsGo) {
     finishing.tool_change_s = 720;
     finishing.link_s = 36;
     finishing.air_s = 3600;
+    finishing.cutting_mm = 6000;
+    finishing.air_mm = 1000;
+    finishing.link_mm = 3000;
+    finishing.lines = 990;
     // 9 litres at a rate of 24 cm3/s and 3 at 6 take 875 s.
-    const std::vector<MachineTime> rows{row("roughing", 24, 1440, 9e6), finishing, row("roughing", 6, 720, 3e6)};
+    std::vector<MachineTime> rows{row("roughing", 24, 1440, 9e6), finishing, row("roughing", 6, 720, 3e6)};
+    rows[0].lines = 10;
     EXPECT_EQ(
         time_line(rows),
         "machine time 4.56 h: roughing 0.75, finishing 0.00, fine finishing 3.81, drilling 0.00; cutting 2.60, "
         "air 1.00, links 0.01, acceleration and stops 0.65, joint moves 0.10, tool changes 0.20; roughing removes "
-        "12.00 l at 4.4 cm3/s, its tools may 13.7.");
+        "12.00 l at 4.4 cm3/s, its tools may 13.7; 40 % of the path removes nothing, 1.5 % of the lines stop exactly.");
     const std::string old = time_line({row("unknown", 1, 2880, 1e6)});
     EXPECT_NE(old.find("drilling 0.00; unknown 1.00; cutting 0.80"), std::string::npos) << old;
     EXPECT_EQ(old.find("removes"), std::string::npos) << old;
