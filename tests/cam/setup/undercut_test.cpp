@@ -27,6 +27,22 @@ TEST(Undercut, OnAClosedPieceUpIsDownAndBase) {
     EXPECT_GT(bases, 20);
 }
 
+TEST(Undercut, CapsThatAreSawnAreLeftOut) {
+    TriangleMesh box = shapes::box({0, 0, 0}, {10, 20, 30});
+    box.cap_of.assign(box.triangles.size(), no_cap);
+    for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+        const Vec3 out = area_vector(box, t);
+        if (out.z > 0) box.cap_of[t] = 7;
+        if (out.z < 0) box.cap_of[t] = 3;
+    }
+    const std::vector<std::int32_t> sawn{7};
+    EXPECT_DOUBLE_EQ(facing(box, {0, 0, 1}, 3).up, 200);
+    EXPECT_DOUBLE_EQ(facing(box, {0, 0, 1}, 3, sawn).up, 0);
+    EXPECT_DOUBLE_EQ(facing(box, {0, 0, 1}, {}, sawn).down, 200);
+    EXPECT_DOUBLE_EQ(facing(box, {0, 0, -1}, {}, sawn).down, 0) << "an overhang that the saw makes";
+    EXPECT_EQ(facing(box, {0, 0, -1}, {}, sawn).triangles_down, 0U);
+}
+
 TEST(Undercut, ByCountEveryTriangleIsWorthTheSame) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {1, 2, 3});
     const Facing all = facing(box, {0, 0, 1}, std::nullopt);

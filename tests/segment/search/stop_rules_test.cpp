@@ -152,6 +152,21 @@ TEST(StopRules, WhatIsOutOfReachIsAskedOncePerPieceAndOnlyWhereItDecides) {
     EXPECT_EQ(next_piece(s, rules, checks, {}).piece, 0U);
 }
 
+TEST(StopRules, ALargeShareOfSoLittleSurfaceAsMayStayBreaksNoRule) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.max_unreachable = 0.02;
+    const auto next = [&](double mm2, double share) {
+        const PieceChecks checks{{}, [&](const Piece& p) {
+                                     return p.name == "A" ? UnreachableSurface{mm2, share, 576} : UnreachableSurface{};
+                                 }};
+        return next_piece(s, rules, checks, {});
+    };
+    EXPECT_TRUE(next(576, 0.3).is_finished);
+    EXPECT_EQ(next(577, 0.3).piece, 0U);
+    EXPECT_TRUE(next(577, 0.02).is_finished) << "a small share of a large piece";
+}
+
 TEST(StopRules, ThosePiecesWaitThatWillBeCutTheNextOneFirst) {
     const Segmentation s = two_boxes();
     StopRules rules;

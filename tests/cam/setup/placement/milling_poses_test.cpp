@@ -59,6 +59,27 @@ TEST(MillingPoses, LieOnThePieceAtTheBlockAndAbove) {
     }
 }
 
+TEST(MillingPoses, NoneStandsOnACapThatIsSawn) {
+    const Cell cell = ready_cell("kr60-ha.toml");
+    BoxSetup s = box_setup(cell, {400, 200, 120}, {{0, 0, 1}});
+    const auto on_top = [&] {
+        std::size_t found = 0;
+        for (const OrientationPoses& orientation : milling_poses(s.setup, s.mesh, cell)) {
+            for (const PoseRegion& region : orientation.regions) {
+                for (const MillingPose& pose : region.poses) {
+                    const bool is_over_it = std::abs(pose.tip.x) < 190 && std::abs(pose.tip.y) < 90;
+                    if (pose.kind == PoseKind::tip && is_over_it && std::abs(pose.tip.z - 120) < 1) ++found;
+                }
+            }
+        }
+        return found;
+    };
+    EXPECT_GT(on_top(), 100U);
+    s.setup.flush_caps = {{1, BlockFace::top, 400.0 * 200}};
+    s.setup.block.size.z = 120 + s.setup.spoil;
+    EXPECT_EQ(on_top(), 0U);
+}
+
 TEST(MillingPoses, OfATiltedToolThatIsTheFirstComeToOneMoreSideOfTheBlock) {
     const Cell cell = ready_cell("kr60-ha.toml");
     const BoxSetup s = box_setup(cell, {400, 200, 120}, {tool_axis(30, 0)});
