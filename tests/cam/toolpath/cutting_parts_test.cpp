@@ -43,8 +43,9 @@ Pass line(Vec3 from, Vec3 to) {
 double depth(const HeightField& foam, Vec3 tip, double radius) {
     double most = 0;
     for (std::size_t i = 0; i < foam.height.size(); ++i) {
+        const std::size_t row = i / foam.columns;
         const double x = foam.cell * (static_cast<double>(i % foam.columns) + 0.5) - tip.x;
-        const double y = foam.cell * (static_cast<double>(i / foam.columns) + 0.5) - tip.y;
+        const double y = foam.cell * (static_cast<double>(row) + 0.5) - tip.y;
         const double below = radius * radius - x * x - y * y;
         if (below <= 0) continue;
         most = std::max(most, static_cast<double>(foam.height[i]) - (tip.z + radius - std::sqrt(below)));
