@@ -2,7 +2,9 @@
 
 #include "app/engine/loop.h"
 
+#include "app/store/decisions.h"
 #include "app/store/project_lines.h"
+#include "base/text.h"
 
 namespace qchopper {
 
@@ -26,9 +28,30 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
     }
     if (observer.on_cut) observer.on_cut(result.end);
     if (options.last == LoopStep::jobs) {
-        result.prepared = project.write_outputs(result.end, options.program_version, observer, context);
+        const auto write = [&] {
+            return project.write_outputs(result.end, options.program_version, observer, context);
+        };
+        result.prepared = write();
+        while (take_fewer_orientations(project, *result.prepared, context)) result.prepared = write();
     }
     return result;
+}
+
+bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context) {
+    if (!prepared.has_programs()) return false;
+    bool is_any = false;
+    for (const PieceReport& piece : prepared.pieces) {
+        const std::size_t orientations = piece.piece_setup.setup().access.orientations.size();
+        if (piece.job.empty() || piece.no_program_because.empty() || orientations < 2) continue;
+        SetupOrder order = committed_setup_order(project.project().history, piece.name);
+        order.piece = piece.name;
+        order.max_directions = orientations - 1;
+        if (!project.decide_setup(order)) continue;
+        is_any = true;
+        context.message("piece " + piece.name + ": " + piece.no_program_because + "; it is milled from " +
+                        counted(orientations - 1, "orientation") + " in place of " + std::to_string(orientations));
+    }
+    return is_any;
 }
 
 std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, std::string go_on,

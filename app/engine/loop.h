@@ -29,9 +29,10 @@ struct LoopObserver {
     std::function<void(const Segmentation&, LoopStep)> on_decision = {};
     // Nothing more is cut; outputs follow. Nothing: nothing was left to cut.
     std::function<void(const std::optional<SearchEnd>&)> on_cut = {};
-    // The setup of which the jobs of a piece will be made; once per piece, before the first job is written.
+    // The setup of which the jobs of a piece will be made, before the first job is written; once per piece, and again
+    // for all where a piece is milled from fewer orientations (take_fewer_orientations()).
     std::function<void(const Piece&, const PlacedSetup&)> on_setup = {};
-    // All jobs of a piece are written, or none because it does not fit.
+    // All jobs of a piece are written, or none because it does not fit; as often as on_setup.
     std::function<void(const PieceReport&)> on_job = {};
 };
 
@@ -52,6 +53,12 @@ struct LoopResult {
 // Cancelled; what was decided stays saved.
 LoopResult run_loop(OpenProject& project, const LoopOptions& options, const LoopObserver& observer,
                     const Context& context);
+
+// Where the arm cannot follow the toolpath of a piece: decides that the piece is milled from one orientation less than
+// it was, as an operator can by `setup --orientations`, with a message; undo takes it back. Whether a piece was
+// decided about; its job is to be written again. Nothing of a piece that has one orientation or gets no programs at
+// all.
+bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context);
 
 // For LoopObserver::on_decision: says what is kept of the cuts and, followed by `go_on`, how to go on with them, for
 // the message of an error that follows; and gives a message per new cut. `of_beam`: the text says that these are the

@@ -53,15 +53,6 @@ std::string advice_words(const std::vector<AccessAdvice>& advice) {
     return words;
 }
 
-// What may give a piece its program: the machine did not follow the orientations that it has.
-std::string remedy_without_program(const PieceReport& piece, const PreparedProject& prepared) {
-    const std::size_t orientations = piece.piece_setup.setup().access.orientations.size();
-    if (orientations < 2) return {};
-    const std::string folder = shell_word(prepared.folder);
-    return ". To do: have it milled from fewer orientations: qchopper setup " + folder + " --piece " + piece.name +
-           " --orientations " + std::to_string(orientations - 1) + ", then qchopper prepare " + folder;
-}
-
 // Why no job of a cell that takes programs has one, once for all pieces of the same reason.
 std::vector<std::string> missing_programs(const PreparedProject& prepared) {
     std::vector<std::string> sentences;
@@ -69,7 +60,7 @@ std::vector<std::string> missing_programs(const PreparedProject& prepared) {
     for (const PieceReport& p : prepared.pieces) {
         if (p.job.empty() || p.no_program_because.empty() || !reasons.insert(p.no_program_because).second) continue;
         sentences.push_back("piece " + p.name + " has no robot program: " + p.no_program_because +
-                            "; its job goes to a simulated cell only" + remedy_without_program(p, prepared));
+                            "; its job goes to a simulated cell only");
     }
     return sentences;
 }

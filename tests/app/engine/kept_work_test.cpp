@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include "app/engine/loop.h"
 #include "app/engine/prepare_project.h"
 #include "app/jobs/kept_programs.h"
 #include "base/files/file.h"
@@ -104,6 +105,31 @@ TEST_F(KeptWork, AChangeOfOnePieceMakesOneProgram) {
     change([](OpenProject& project) { EXPECT_TRUE(project.undo()); });
     EXPECT_EQ(made_again(), "") << "that of before is still there";
     EXPECT_EQ(outputs().at("B.qjob"), first.at("B.qjob"));
+}
+
+TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsUntilOneIsLeft) {
+    PreparedProject prepared = prepare_project(project_folder, {}, {"1.0", {}}, context());
+    PieceReport& refused = prepared.pieces[1];
+    const std::size_t before = refused.piece_setup.setup().access.orientations.size();
+    ASSERT_GT(before, 1U);
+    const auto order = [&] { return committed_setup_order(prepared.project.history, "B").max_directions; };
+    LockedProject open(project_folder, {}, {});
+    const auto take_fewer = [&] {
+        const bool is_taken = take_fewer_orientations(open.project, prepared, context());
+        prepared.project = open.project.project();
+        return is_taken;
+    };
+    EXPECT_FALSE(take_fewer()) << "every piece has its program";
+    refused.no_program_because = "no arm posture reaches it";
+    EXPECT_TRUE(take_fewer());
+    EXPECT_EQ(order(), before - 1);
+    EXPECT_NE(messages.find("piece B: no arm posture reaches it; it is milled from "), std::string::npos) << messages;
+    EXPECT_FALSE(take_fewer()) << "that is decided already";
+    refused.piece_setup.choice.setups[0].access.orientations.resize(1);
+    EXPECT_FALSE(take_fewer());
+    ASSERT_TRUE(open.project.undo().has_value());
+    prepared.project = open.project.project();
+    EXPECT_FALSE(order().has_value());
 }
 
 // B is then the first of one piece: names in its program change, and nothing else.

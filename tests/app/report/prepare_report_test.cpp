@@ -72,30 +72,5 @@ TEST(PrepareReport, WhereBlocksAreSawnAreasOfCapsAndFoamAreAddedUp) {
                  "3.00 m2 are to mill, and 100 l of foam to remove."));
 }
 
-TEST(PrepareReport, APieceWithoutItsProgramNamesTheNextStep) {
-    PreparedProject prepared = some_project();
-    prepared.pieces.pop_back();
-    prepared.cell.machine.emplace();
-    prepared.project.has_programs = true;
-    ASSERT_TRUE(prepared.has_programs());
-    PieceReport& piece = prepared.pieces[1];
-    piece.no_program_because = "no arm posture reaches it";
-    const std::string sentence =
-        "piece C has no robot program: no arm posture reaches it; its job goes to a simulated cell only";
-    const auto warning = [&] {
-        const std::vector<std::string> all = warnings(prepared);
-        const auto found = std::ranges::find_if(all, [&](const std::string& w) { return w.starts_with(sentence); });
-        return found == all.end() ? std::string("none") : found->substr(sentence.size());
-    };
-    piece.piece_setup.choice.setups[0].access.orientations.resize(1);
-    EXPECT_EQ(warning(), "");
-    piece.piece_setup.choice.setups[0].access.orientations.resize(4);
-    EXPECT_EQ(warning(),
-              ". To do: have it milled from fewer orientations: qchopper setup p.qch --piece C --orientations 3, then "
-              "qchopper prepare p.qch");
-    prepared.project.has_programs = false;
-    EXPECT_EQ(warning(), "none");
-}
-
 }  // namespace
 }  // namespace qchopper
