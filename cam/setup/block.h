@@ -34,7 +34,8 @@ struct StockBlock {
 };
 
 // A square metre of cap to mill costs as much machine time as 400 litres of foam to mill off: 2.13 h a square metre and
-// 0.0053 h a litre, fitted to the programs of the 52 pieces of a bunny of 1.5 m in two cells (docs/measurements/proof.md).
+// 0.0053 h a litre, fitted to the programs of the 52 pieces of a bunny of 1.5 m in two cells
+// (docs/measurements/proof.md).
 constexpr double foam_per_milled_cap = 400;  // mm
 
 constexpr double flush_step = 0.1;  // mm, of sizes along an axis with a flush face

@@ -24,26 +24,27 @@ constexpr double worth_a_way = 40;                           // mm of air betwee
 // thinner than a cell may lie between centres.
 class CutsAt {
  public:
-    CutsAt(const HeightField& foam, const CuttingTool& tool, double film)
-        : foam_(foam),
+    CutsAt(const HeightField& stock, const CuttingTool& tool, double film)
+        : stock_(stock),
           film_(film),
           radius_(0.5 * tool.diameter),
-          reach_(radius_ + half_diagonal * foam.cell),
+          reach_(radius_ + half_diagonal * stock.cell),
           wall_from_(steep_sine * radius_),
           wall_above_((1 - std::sqrt(1 - steep_sine * steep_sine)) * radius_) {}
 
     bool operator()(Vec3 tip) const {
-        const CellSpan rows = centres_within((tip.y - reach_) / foam_.cell, (tip.y + reach_) / foam_.cell, foam_.rows);
+        const CellSpan rows =
+            centres_within((tip.y - reach_) / stock_.cell, (tip.y + reach_) / stock_.cell, stock_.rows);
         for (std::size_t row = rows.first; row < rows.end; ++row) {
-            const double y = foam_.cell * (static_cast<double>(row) + 0.5) - tip.y;
+            const double y = stock_.cell * (static_cast<double>(row) + 0.5) - tip.y;
             const double half = std::sqrt(std::max(0.0, reach_ * reach_ - y * y));
             const CellSpan columns =
-                centres_within((tip.x - half) / foam_.cell, (tip.x + half) / foam_.cell, foam_.columns);
-            const float* own = &foam_.height[row * foam_.columns];
+                centres_within((tip.x - half) / stock_.cell, (tip.x + half) / stock_.cell, stock_.columns);
+            const float* own = &stock_.height[row * stock_.columns];
             for (std::size_t column = columns.first; column < columns.end; ++column) {
                 const double above = static_cast<double>(own[column]) - tip.z - film_;
                 if (above <= 0) continue;
-                const double x = foam_.cell * (static_cast<double>(column) + 0.5) - tip.x;
+                const double x = stock_.cell * (static_cast<double>(column) + 0.5) - tip.x;
                 if (is_cut(x * x + y * y, above)) return true;
             }
         }
@@ -58,7 +59,7 @@ class CutsAt {
         return square + under * under < radius_ * radius_;
     }
 
-    const HeightField& foam_;
+    const HeightField& stock_;
     double film_;
     double radius_;
     double reach_;
@@ -81,23 +82,23 @@ std::vector<Stretch> left_out(const std::vector<Stretch>& air, double length) {
 
 }  // namespace
 
-bool is_cutting(const Pass& pass, const HeightField& foam, const CuttingTool& tool, double film) {
+bool is_cutting(const Pass& pass, const HeightField& stock, const CuttingTool& tool, double film) {
     assert(tool.shape == ToolShape::ball && film >= 0);
-    const CutsAt cuts(foam, tool, film);
-    return !blocked_stretches(pass, 0.5 * foam.cell, std::not_fn(cuts)).empty();
+    const CutsAt cuts(stock, tool, film);
+    return !blocked_stretches(pass, 0.5 * stock.cell, std::not_fn(cuts)).empty();
 }
 
-std::vector<Pass> cutting_parts(const std::vector<Pass>& passes, const HeightField& foam, const CuttingTool& tool,
+std::vector<Pass> cutting_parts(const std::vector<Pass>& passes, const HeightField& stock, const CuttingTool& tool,
                                 double film) {
     assert(tool.shape == ToolShape::ball && film >= 0);
-    const CutsAt cuts(foam, tool, film);
+    const CutsAt cuts(stock, tool, film);
     std::vector<Pass> parts;
     const auto add = [&](Pass part) {
         if (length_of(part) > min_length) parts.push_back(std::move(part));
     };
     for (const Pass& pass : passes) {
         const double length = length_of(pass);
-        const std::vector<Stretch> air = left_out(blocked_stretches(pass, 0.5 * foam.cell, cuts), length);
+        const std::vector<Stretch> air = left_out(blocked_stretches(pass, 0.5 * stock.cell, cuts), length);
         if (air.empty()) {
             parts.push_back(pass);
             continue;
