@@ -35,8 +35,11 @@ Replayed replayed(const ReadJob& job, const Cell& cell, double replay_cell) {
         texts[name] = {bytes.begin(), bytes.end()};
     }
     const double started = process_cpu_s();
-    const JobProof proof = prove(
-        {cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, nullptr, holes_of(job.caps), replay_cell}, {});
+    ProofInput input{cell, job.setup, job.setup_in_cell, mesh, *job.program, texts};
+    input.holes = holes_of(job.caps);
+    input.half_spaces = job.half_spaces;
+    input.replay_cell = replay_cell;
+    const JobProof proof = prove(input);
     return {process_cpu_s() - started, proof.time_s};
 }
 
