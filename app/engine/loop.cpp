@@ -38,11 +38,10 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
 }
 
 bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context) {
-    if (!prepared.has_programs()) return false;
     bool is_any = false;
     for (const PieceReport& piece : prepared.pieces) {
         const std::size_t orientations = piece.piece_setup.setup().access.orientations.size();
-        if (piece.job.empty() || piece.no_program_because.empty() || orientations < 2) continue;
+        if (!piece.is_machine_refusing || orientations < 2) continue;
         SetupOrder order = committed_setup_order(project.project().history, piece.name);
         order.piece = piece.name;
         order.max_directions = orientations - 1;

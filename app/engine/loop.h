@@ -56,8 +56,7 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
 
 // Where the arm cannot follow the toolpath of a piece: decides that the piece is milled from one orientation less than
 // it was, as an operator can by `setup --orientations`, with a message; undo takes it back. Whether a piece was
-// decided about; its job is to be written again. Nothing of a piece that has one orientation or gets no programs at
-// all.
+// decided about; its job is to be written again. Nothing of a piece that has one orientation.
 bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context);
 
 // For LoopObserver::on_decision: says what is kept of the cuts and, followed by `go_on`, how to go on with them, for

@@ -210,6 +210,7 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
     }
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
+    made.report.is_machine_refusing = programs.is_machine_refusing;
     input.caps = programs.caps;
     if (programs.parts.empty()) {
         input.no_program_because = programs.none_because;

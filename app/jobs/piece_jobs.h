@@ -33,6 +33,7 @@ struct PieceReport {
     std::filesystem::path job;              // empty: it has no job, because it does not fit the cell or is only sawn
     std::vector<AccessAdvice> advice = {};  // of a piece of which more is out of reach than may be
     std::string no_program_because = {};    // empty: its jobs hold robot programs
+    bool is_machine_refusing = false;       // it has none because the arm does not follow its toolpath
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it
     double length_mm = 0;

@@ -302,7 +302,8 @@ PiecePrograms programs_with(const ToolpathSettings& settings, const Piece& piece
             program = made_program(piece, known, piece_no, planned, caps, narrow, context);
         }
     } catch (const InputError& error) {
-        return {{}, error.what(), caps_by_hand(std::move(caps), error.what()), {}};
+        const bool is_machine_refusing = dynamic_cast<const ProgramRefused*>(&error) != nullptr;
+        return {{}, error.what(), caps_by_hand(std::move(caps), error.what()), {}, is_machine_refusing};
     }
     const auto& [made, posted, piece_setup] = *program;
     const Setup& setup = piece_setup.setup();

@@ -30,6 +30,7 @@ struct PiecePrograms {
     std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
     // Where the block has to stand for them, if that is not where the setup has it.
     std::optional<BlockPlacement> place = {};
+    bool is_machine_refusing = false;  // there is none because the arm does not follow the toolpath (ProgramRefused)
 };
 
 // Numbers of the tools that remove foam too fast (FindingKind::removal_rate) in programs that their proofs refuse for

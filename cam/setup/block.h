@@ -48,8 +48,8 @@ StockBlock choose_block(const Cell& cell, Vec3 piece_size);
 // The same with flush faces. `caps_mm2`: by BlockFace, the area of the caps in whose plane the block can end; 0: none.
 // Such a face is sawn in every case, so that stock must be longer by a saw cut for each; where it is not, the faces
 // along that axis are as others. Then saw cuts cost nothing, and caps that are milled their area times
-// foam_per_milled_cap. Along an axis with a flush face the size is in tenths of mm, nearest to the piece, else in whole
-// mm.
+// foam_per_milled_cap. Along an axis with a flush face the size is in tenths of mm, rounded up in x and y and to the
+// nearest one in z, else in whole mm.
 struct FlushBlock {
     StockBlock block;
     FlushFaces flush{};  // of the faces that caps lie in, those for which the stock is long enough

@@ -121,6 +121,8 @@ TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsUntilO
     };
     EXPECT_FALSE(take_fewer()) << "every piece has its program";
     refused.no_program_because = "no arm posture reaches it";
+    EXPECT_FALSE(take_fewer()) << "another reason than the arm";
+    refused.is_machine_refusing = true;
     EXPECT_TRUE(take_fewer());
     EXPECT_EQ(order(), before - 1);
     EXPECT_NE(messages.find("piece B: no arm posture reaches it; it is milled from "), std::string::npos) << messages;
