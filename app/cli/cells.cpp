@@ -9,6 +9,7 @@
 #include "app/cli/exit_code.h"
 #include "app/pictures/reach_picture.h"
 #include "app/report/cell/cell_report.h"
+#include "app/store/ready_cells.h"
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/units.h"
@@ -37,6 +38,14 @@ std::vector<fs::path> toml_files(const fs::path& folder) {
     return files;
 }
 
+fs::path folder_of(const CellsListArguments& arguments) {
+    if (!arguments.folder.empty()) return arguments.folder;
+    std::error_code error;
+    const fs::path ready = ready_cells();
+    const bool is_installed = !fs::is_directory("cells", error) && fs::is_directory(ready, error);
+    return is_installed ? ready : fs::path("cells");
+}
+
 ListedCell listed(const fs::path& file) {
     try {
         return {file.string(), read_cell(file), {}};
@@ -57,7 +66,7 @@ Vec3 largest_stock_size(const Cell& cell) {
 int run(const CellsListArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("Nothing was changed.");
     std::vector<ListedCell> cells;
-    for (const fs::path& file : toml_files(arguments.folder)) cells.push_back(listed(file));
+    for (const fs::path& file : toml_files(folder_of(arguments))) cells.push_back(listed(file));
     terminal.show(lines(cells), document(cells));
     const bool is_sound = std::all_of(cells.begin(), cells.end(), [](const ListedCell& row) { return !!row.cell; });
     return is_sound ? exit_done : exit_config;

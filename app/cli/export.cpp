@@ -10,7 +10,7 @@ namespace qchopper {
 
 int run(const ExportArguments& arguments, Terminal& terminal) {
     OpenProject open(without_slash(arguments.project), terminal.context());
-    const ExportedProject exported = export_pieces(open, arguments, version, terminal.context());
+    const ExportedProject exported = export_pieces(open, arguments, version(), terminal.context());
     terminal.warn(warnings(exported, arguments, open.project()));
     terminal.show(lines(exported, open.project()), document(exported, arguments, open.project(), arguments.project));
     return exported.is_demand_met() ? exit_done : exit_demand_broken;

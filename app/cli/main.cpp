@@ -13,6 +13,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/report/notices.h"
+#include "base/parallel.h"
 #include "devices/wire/device_error.h"
 
 namespace qchopper {
@@ -75,6 +76,8 @@ int run_program(int argc, const char* const* argv) {
         if (!arguments) return exit_done;  // help or version was asked for
         if (arguments->quiet) terminal.set_quiet();
         if (arguments->timings) terminal.set_timings();
+        std::optional<ThreadLimit> limit;
+        if (arguments->threads) limit.emplace(*arguments->threads);
         if (may_end_anywhere(*arguments)) terminal.end_when_stopped([&] { report_stop(terminal); });
         const int code = std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
         if (!Terminal::is_output_lost()) return code;

@@ -14,7 +14,7 @@ namespace qchopper {
 
 int run(const PrepareArguments& a, Terminal& terminal) {
     check_arguments(a);
-    PrepareOptions options{version, a.time_limit_s};
+    PrepareOptions options{version(), a.time_limit_s};
     if (a.programs || a.no_programs) options.has_programs = a.programs;
     if (a.discard) options.discard = discard_from(*a.discard);
     ProjectChoices choices = choices_of(a);

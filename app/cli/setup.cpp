@@ -13,7 +13,7 @@ namespace qchopper {
 int run(const SetupArguments& a, Terminal& terminal) {
     SetupRequest request = a;
     request.tools = ascending(a.tools);
-    const SetupAnswer answer = setup_project(without_slash(a.project), request, version, terminal.context());
+    const SetupAnswer answer = setup_project(without_slash(a.project), request, version(), terminal.context());
     if (answer.job) terminal.warn(program_warnings(*answer.job, answer.folder));
     terminal.warn(warnings(answer));
     terminal.show(lines(answer), document(answer));

@@ -19,10 +19,10 @@ int run(const VerifyArguments& a, Terminal& terminal) {
             throw InputError(InputFault::use, "a project has its own cell file",
                              "leave --cell out, or name a job file NAME.qjob");
         }
-        answer = verify_project(without_slash(a.input), a.piece, version, terminal.context());
+        answer = verify_project(without_slash(a.input), a.piece, version(), terminal.context());
     } else {
         if (a.piece) throw InputError(InputFault::use, "a job file holds one piece", "leave --piece out");
-        answer.push_back(verify_job(a.input, a.cell, version, terminal.context()));
+        answer.push_back(verify_job(a.input, a.cell, version(), terminal.context()));
     }
     terminal.show(lines(answer), document(answer));
     return is_all_positive(answer) ? exit_done : exit_demand_broken;

@@ -17,6 +17,7 @@
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
 #include "cam/setup/choose_setup.h"
+#include "segment/picture/lettering.h"
 
 namespace qchopper {
 namespace {
@@ -104,6 +105,7 @@ void take_finest_tool(ProjectChoices& choices, const Cell& cell) {
 }  // namespace
 
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context) {
+    check_font();
     check_output(choices.folder);
     ProjectDraft draft;
     draft.folder = choices.folder;
@@ -145,6 +147,7 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
 LockedProject::LockedProject(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& cell_file,
                              const ProjectContext& context)
     : lock(folder), project(folder, context) {
+    check_font();
     clear_leftovers(folder);
     if (!cell_file) return;
     take_cell(folder, *cell_file, context);

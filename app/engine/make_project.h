@@ -22,17 +22,18 @@ struct ProjectDraft {
     Project project;                 // without a decision
 };
 
-// Checks the folder and the cell file, reads the plan, reads the painted files, then imports the scan and
+// Checks font, folder and cell file, reads the plan, reads the painted files, then imports the scan and
 // finds what of it is ignored, what must not be cut, and its symmetry plane; writes nothing. The weights are those of
-// the plan where there is neither a preset nor given weights. Throws InputError: what check_output, read_cell,
-// read_plan, read_painted, read_no_cut, import_project_scan, ignore_surface and mark_no_cut throw, in this order.
+// the plan where there is neither a preset nor given weights. Throws InputError: what check_font, check_output,
+// read_cell, read_plan, read_painted, read_no_cut, import_project_scan, ignore_surface and mark_no_cut throw, in this
+// order.
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context);
 
 // A project whose folder no other program writes while this object lives.
 struct LockedProject {
     // Opens the project of a folder, removes what a killed program left behind, then copies the cell file into the
     // folder, if one is given. Precondition: with a cell file the project has no cell yet. Throws what ProjectLock,
-    // load_project and take_cell throw.
+    // load_project, check_font and take_cell throw.
     LockedProject(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& cell_file,
                   const ProjectContext& context);
     // Opens what make_project has written.

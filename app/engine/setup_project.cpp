@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/engine/make_project.h"
+#include "app/store/project_folder.h"
 #include "app/store/replay.h"
 #include "base/error.h"
 #include "base/printable.h"
@@ -52,8 +52,13 @@ PieceSetups setups_of(OpenProject& project, const Piece& piece) {
 
 SetupAnswer setup_project(const std::filesystem::path& folder, const SetupRequest& request,
                           const std::string& program_version, const ProjectContext& context) {
-    LockedProject locked(folder, {}, context);
-    OpenProject& project = locked.project;
+    // What is only shown is shown of a project that another program is writing, and of one that cannot be written.
+    std::optional<ProjectLock> lock;
+    if (request.decides()) {
+        lock.emplace(folder);
+        clear_leftovers(folder);
+    }
+    OpenProject project(folder, context);
     project.check_cell();
     context.saved("The project is unchanged.");
     const std::vector<Piece>& pieces = project.segmentation().pieces;

@@ -42,7 +42,8 @@ struct SetupAnswer {
     std::vector<PieceSetups> pieces;
 };
 
-// Precondition: with a decision a piece is named. Throws what LockedProject throws, InputError (use) for a project
+// Without a decision nothing is locked, and nothing but the cache is written. Precondition: with a decision a piece is
+// named. Throws what load_project throws and, with a decision, what ProjectLock throws; InputError (use) for a project
 // without a cell, a piece that does not exist or a base that it does not have, and Cancelled.
 SetupAnswer setup_project(const std::filesystem::path& folder, const SetupRequest& request,
                           const std::string& program_version, const ProjectContext& context);

@@ -48,6 +48,7 @@ std::vector<JobHole> holes_of(const std::vector<DrawnCap>& caps) {
 JobInput without_others(const JobInput& job) {
     JobInput own = job;
     own.piece_no = own.piece_count = 1;
+    own.program_version.clear();
     own.project_id = {};
     own.scan_sha256 = {};
     own.alternatives.clear();

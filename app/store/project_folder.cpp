@@ -6,11 +6,15 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <system_error>
+
 #include "app/store/ignored_surface.h"
 #include "app/store/no_cut_surface.h"
 #include "app/store/project_json.h"
 #include "base/error.h"
 #include "base/files/staged_folder.h"
+#include "base/files/temporary_name.h"
 #include "base/printable.h"
 #include "cam/cell/cell.h"
 
@@ -96,9 +100,9 @@ Project load_project(const fs::path& folder) {
 void clear_leftovers(const fs::path& folder) {
     std::vector<fs::path> left;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.path().filename().string().find(".tmp.") != std::string::npos) left.push_back(entry.path());
+        if (is_leftover(entry.path().filename().string())) left.push_back(entry.path());
     }
-    for (const fs::path& file : left) fs::remove(file);
+    for (const fs::path& file : left) fs::remove_all(file);
 }
 
 ProjectLock::ProjectLock(const fs::path& folder)
@@ -106,11 +110,18 @@ ProjectLock::ProjectLock(const fs::path& folder)
     if (descriptor_ < 0) {
         throw InputError(InputFault::create, folder.string() + " cannot be written", "check the rights of the folder");
     }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        ::close(descriptor_);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    const int fault = errno;
+    ::close(descriptor_);
+    if (fault == EWOULDBLOCK) {
         throw InputError(InputFault::busy, folder.string() + " is being written by another qchopper",
                          "wait until it has ended, or stop it");
     }
+    // ENOLCK, EOPNOTSUPP, ENOSYS: such as a network file system without a lock manager.
+    throw InputError(
+        InputFault::create,
+        folder.string() + " is on a file system that cannot lock files: " + std::generic_category().message(fault),
+        "keep the project on a disk of this machine, or have the file system mounted with locks");
 }
 
 ProjectLock::~ProjectLock() {

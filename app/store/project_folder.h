@@ -53,15 +53,16 @@ void save_project(const std::filesystem::path& folder, const Project& project);
 // Throws InputError: (missing) there is no project, (config) a project file that this version cannot read.
 Project load_project(const std::filesystem::path& folder);
 
-// Removes files such as A.ply.tmp.4711, which a program leaves behind if it is killed while it writes. Precondition:
-// the caller holds the lock, so that no other program is writing them (tests/app/engine/killed_test.cpp).
+// Removes what a program of this machine leaves behind if it is killed while it writes (is_leftover of
+// base/files/temporary_name.h), in all folders of the project (tests/app/engine/killed_test.cpp).
 void clear_leftovers(const std::filesystem::path& folder);
 
 // Holds the lock file of a project while it lives, so that one program writes at a time. The system releases it when
 // the program ends in any way.
 class ProjectLock {
  public:
-    // Throws InputError: (busy) another program holds the lock, (create) the folder cannot be written.
+    // Throws InputError: (busy) another program holds the lock, (create) the folder cannot be written
+    // or its file system has no locks.
     explicit ProjectLock(const std::filesystem::path& folder);
     ~ProjectLock();
     ProjectLock(const ProjectLock&) = delete;

@@ -198,6 +198,7 @@ void fields(V& v, T& trial) {
     v("before_mm2", trial.before_mm2);
     v("after_mm2", trial.after_mm2);
     v("is_cut_short", trial.is_cut_short);
+    v.maybe("holds", trial.holds);
 }
 
 template <class V, Of<BeamState::Branch> T>

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/files/temporary_name.h"
 #include "base/files/unfinished.h"
 #include "base/huge_pages.h"
 
@@ -43,10 +44,10 @@ void write_all(int fd, const std::uint8_t* data, std::size_t size, const std::fi
 
 void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, std::size_t size) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    const std::filesystem::path aside = path.string() + ".tmp." + std::to_string(::getpid());
+    const std::filesystem::path aside = path.parent_path() / temporary_name(path.filename().string());
     const Unfinished listed(aside);
     try {
-        const Descriptor file(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+        const Descriptor file(::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
         if (file.fd < 0) throw InputError(InputFault::create, path.string() + " cannot be created: " + reason());
         write_all(file.fd, data, size, path);
         if (::fsync(file.fd) != 0) throw InputError(InputFault::io, path.string() + " cannot be saved: " + reason());

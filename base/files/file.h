@@ -37,9 +37,9 @@ Bytes read_standard_input(SizeLimit limit = scan_limit);
 // a regular one, links followed; nothing if nothing is there.
 void check_regular_file(const std::filesystem::path& path);
 
-// Writes path.tmp.<pid>, fsyncs it, renames it to `path` and fsyncs the folder. A file or link at `path` is replaced.
-// Throws InputError: create if the file cannot be created or replaced, io if it cannot be written; then `path` is
-// unchanged and the temporary file is removed.
+// Writes it under a temporary name (temporary_name.h), fsyncs it, renames it to `path` and fsyncs the folder. A file or
+// link at `path` is replaced. Throws InputError: create if the file cannot be created or replaced, io if it cannot be
+// written; then `path` is unchanged and the temporary file is removed.
 void write_file(const std::filesystem::path& path, const Bytes& bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
 

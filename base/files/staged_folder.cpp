@@ -1,44 +1,20 @@
-// Temporary name with process id and checksum, flock() while it is filled, rename() at the end. The constructor lists
-// the parent folder once.
+// A temporary name, flock() while it is filled, rename() at the end. The constructor lists the parent folder once.
 
 #include "base/files/staged_folder.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <charconv>
 #include <string>
 #include <vector>
 
-#include "base/sha256.h"
+#include "base/files/temporary_name.h"
 
 namespace qchopper {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* infix = ".tmp.";
-
-// "NAME.tmp.4711-1a2b3c4d"
-std::string staged_name(const std::string& name, long process) {
-    const std::string base = name + infix + std::to_string(process);
-    const std::string checked = "qchopper staged folder " + base;
-    const Sha256 digest = sha256({reinterpret_cast<const std::uint8_t*>(checked.data()), checked.size()});
-    return base + "-" + to_hex(digest).substr(0, 8);
-}
-
-// The process id in a name that staged_name() made; 0 for any other name.
-long process_in(const std::string& name) {
-    const std::size_t at = name.rfind(infix);
-    if (at == std::string::npos) return 0;
-    const char* const digits = name.c_str() + at + std::string(infix).size();
-    long process = 0;
-    std::from_chars(digits, name.c_str() + name.size(), process);
-    return process > 0 && staged_name(name.substr(0, at), process) == name ? process : 0;
-}
 
 // The descriptor of the folder with its lock; -1: it cannot be opened, or another run holds the lock.
 int open_locked(const fs::path& folder) {
@@ -48,21 +24,16 @@ int open_locked(const fs::path& folder) {
     return -1;
 }
 
-bool has_ended(long process) {
-    return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
-}
-
 // Removes what killed runs left in a folder. What cannot be removed is left: no run depends on it.
 void remove_leftovers(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> left;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const long process = process_in(it->path().filename().string());
-        if (process != 0 && has_ended(process)) left.push_back(it->path());
+        if (is_leftover(it->path().filename().string())) left.push_back(it->path());
     }
     for (const fs::path& path : left) {
         const int lock = open_locked(path);
-        if (lock < 0) continue;  // a run on another machine or in another container holds it
+        if (lock < 0) continue;  // a run in another container of this machine holds it
         fs::remove_all(path, error);
         ::close(lock);
     }
@@ -71,11 +42,8 @@ void remove_leftovers(const fs::path& folder) {
 }  // namespace
 
 StagedFolder::StagedFolder(const fs::path& place)
-    : place_(place),
-      path_(place.parent_path() / staged_name(place.filename().string(), static_cast<long>(::getpid()))),
-      listed_(path_) {
+    : place_(place), path_(place.parent_path() / temporary_name(place.filename().string())), listed_(path_) {
     remove_leftovers(place.has_parent_path() ? place.parent_path() : fs::path("."));
-    fs::remove_all(path_);  // of an earlier process with this number
     fs::create_directory(path_);
     descriptor_ = open_locked(path_);
 }

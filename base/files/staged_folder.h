@@ -1,8 +1,8 @@
 // A folder that is filled under a temporary name and then renamed, so that it appears complete or not at all.
 //
 // A run that is killed leaves its temporary folder; the next run that makes one beside it removes it. Only folders that
-// this program made and no run uses any more are removed: the name holds the process id and a checksum of itself, the
-// process has ended, and the lock on the folder is free (tests/base/files/staged_folder_test.cpp).
+// this program made and no run uses any more are removed: the name is one of this machine, whose process has ended
+// (temporary_name.h), and the lock on the folder is free (tests/base/files/staged_folder_test.cpp).
 
 #pragma once
 

@@ -12,6 +12,8 @@ extern "C" {
 #include <filesystem>
 #include <memory>
 
+#include "base/error.h"
+
 namespace qchopper {
 namespace {
 
@@ -32,19 +34,23 @@ struct FreeFont {
 using Font = std::unique_ptr<hershey_font, FreeFont>;
 
 // The library prints an error where the file is missing, so it is not called then.
-Font load_font() {
-    std::error_code error;
-    const bool is_there = std::filesystem::exists(QCHOPPER_HERSHEY_FONT, error);
-    return Font(is_there ? hershey_jhf_font_load(QCHOPPER_HERSHEY_FONT) : nullptr);
+hershey_font* font() {
+    static const Font loaded = [] {
+        std::error_code error;
+        const bool is_there = std::filesystem::exists(QCHOPPER_HERSHEY_FONT, error);
+        return Font(is_there ? hershey_jhf_font_load(QCHOPPER_HERSHEY_FONT) : nullptr);
+    }();
+    if (loaded != nullptr) return loaded.get();
+    throw InputError(InputFault::missing, std::string("the font of pictures, " QCHOPPER_HERSHEY_FONT ", is missing"),
+                     "install the package hershey-fonts-data");
 }
 
 // Strokes in units of the font, from x = 0 to `width`, y downwards.
 std::vector<Stroke> strokes_of(const std::string& text, double& width) {
-    static const Font font = load_font();
     std::vector<Stroke> strokes;
     width = 0;
     for (const char c : text) {
-        const hershey_glyph* glyph = font ? hershey_font_glyph(font.get(), static_cast<unsigned char>(c)) : nullptr;
+        const hershey_glyph* glyph = hershey_font_glyph(font(), static_cast<unsigned char>(c));
         if (glyph == nullptr) continue;
         for (const hershey_path* path = glyph->paths; path != nullptr; path = path->next) {
             Stroke stroke;
@@ -109,6 +115,10 @@ void draw(Pixels& pixels, const std::vector<Stroke>& strokes, double width) {
 }
 
 }  // namespace
+
+void check_font() {
+    font();
+}
 
 void draw_text(Pixels& pixels, double x, double y, const std::string& text, double height) {
     double units = 0;

@@ -8,9 +8,12 @@
 
 namespace qchopper {
 
+// Throws InputError (missing) unless the font is installed (package hershey-fonts-data): for programs that work long
+// before they draw. Both functions below throw it as well.
+void check_font();
+
 // A text of one line with its middle at (x, y) in pixels, moved into the picture where it would reach beyond; capital
-// letters are `height` pixels high. Characters that the font lacks, and all where the font is not installed (package
-// hershey-fonts-data), are left out.
+// letters are `height` pixels high. Characters that the font lacks are left out.
 void draw_text(Pixels& pixels, double x, double y, const std::string& text, double height);
 
 // A bar of 1, 2 or 5 times a power of ten mm, about a sixth of the picture long, in the lower left corner, with its

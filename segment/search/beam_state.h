@@ -23,6 +23,7 @@ struct RevertedTrial {
     double before_mm2 = 0;      // unreachable area of the piece
     double after_mm2 = 0;       // of the pieces that the cuts made
     bool is_cut_short = false;  // by max_cuts
+    bool holds = false;         // every piece that the cuts made held the rules: kept if few others break one (trial.h)
     bool operator==(const RevertedTrial&) const = default;
 };
 

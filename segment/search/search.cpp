@@ -99,15 +99,32 @@ class Search {
 
     // Passes pieces over of which so little is out of reach that no cut can gain enough.
     void find_next_piece(Bsp& b) {
-        for (b.next = judge_.next(b.segmentation, b.passed_over); b.next.is_trial;
-             b.next = judge_.next(b.segmentation, b.passed_over)) {
+        while (true) {
+            b.next = judge_.next(b.segmentation, b.passed_over);
+            if (!b.next.is_trial && (b.next.piece || b.next.is_finished || !takes_up_again(b))) return;
+            if (!b.next.is_trial) continue;
             const Piece& piece = b.segmentation.pieces[*b.next.piece];
             const double unreachable = judge_.unreachable(piece).mm2;
             if (unreachable >= least_fall_to_hold_mm2(judge_.min_gain_mm2())) return;
             b.passed_over.push_back(piece.name);
-            b.reverted.push_back({piece.name, 0, unreachable, unreachable, false});
+            b.reverted.push_back({piece.name, 0, unreachable, unreachable});
         }
     }
+
+    // At the end: pieces whose trial was reverted though all held the rules then, because many others broke one. False:
+    // there is none, or many still do. Such a trial is kept now, so that none is taken up twice.
+    bool takes_up_again(Bsp& b) {
+        const bool is_full = static_cast<int>(b.segmentation.cuts.size()) >= settings_.stop.max_cuts;
+        if (is_full || std::none_of(b.reverted.begin(), b.reverted.end(), holds)) return false;
+        if (!judge_.do_few_break_rules(b.segmentation)) return false;
+        for (const RevertedTrial& trial : b.reverted) {
+            if (holds(trial)) std::erase(b.passed_over, trial.piece);
+        }
+        std::erase_if(b.reverted, holds);
+        return true;
+    }
+
+    static bool holds(const RevertedTrial& trial) { return trial.holds; }
 
     bool is_any_live() const {
         return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });

@@ -126,6 +126,14 @@ std::string StopJudge::why(const Piece& piece) {
     return faults;
 }
 
+bool StopJudge::do_few_break_rules(const Segmentation& segmentation) {
+    constexpr std::size_t few = 3;
+    constexpr std::size_t of = 10;
+    const auto breaking = std::count_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                        [&](const Piece& piece) { return breaks_a_rule(piece); });
+    return static_cast<std::size_t>(breaking) <= std::max(few, segmentation.pieces.size() / of);
+}
+
 NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<std::string>& passed_over) {
     const int cuts = static_cast<int>(segmentation.cuts.size());
     const bool has_cuts = rules_.min_cuts && cuts >= *rules_.min_cuts;

@@ -97,6 +97,8 @@ class StopJudge {
 
     // Whether the piece breaks a rule on single pieces.
     bool breaks_a_rule(const Piece& piece) { return !why(piece).empty(); }
+    // Whether at most three of the pieces, or at most a tenth, break a rule on single pieces.
+    bool do_few_break_rules(const Segmentation& segmentation);
     // The rules on single pieces that it breaks, with its figures: "5,300 faces (fewer than 5,000 are wanted)". Empty:
     // none.
     std::string why(const Piece& piece);

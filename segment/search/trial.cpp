@@ -154,18 +154,19 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
     const double least_to_hold = least_fall_to_hold_mm2(judge.min_gain_mm2());
+    const bool are_few = judge.do_few_break_rules(segmentation);
     while (true) {
         const double after = attempt.unreachable_mm2();
         const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();
         const double by_hand = judge.seam_width_mm() > 0 ? judge.seam_width_mm() * attempt.seam_mm() : 0;
         const double min_gain = std::max(judge.min_gain_mm2(), by_hand);
-        if (holds || before - after >= min_fall_mm2(*piece, before, min_gain)) {
+        if ((holds && are_few) || before - after >= min_fall_mm2(*piece, before, min_gain)) {
             return Trial{std::move(attempt.segmentation()), {}};
         }
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {
-            return Trial{std::nullopt, {first.piece, attempt.cuts(), before, after, is_cut_short}};
+            return Trial{std::nullopt, {first.piece, attempt.cuts(), before, after, is_cut_short, holds}};
         }
     }
 }
@@ -176,7 +177,7 @@ std::string describe(const RevertedTrial& trial) {
     const int decimals = trial.before_mm2 >= 10 * mm2_per_cm2 ? 1 : 3;
     return std::string(counts[static_cast<std::size_t>(trial.cuts) - 1]) + " changed that from " +
            fixed(trial.before_mm2 / mm2_per_cm2, decimals) + " to " + fixed(trial.after_mm2 / mm2_per_cm2, decimals) +
-           " cm2";
+           " cm2" + (trial.holds ? ", less than its joints take by hand" : "");
 }
 
 }  // namespace qchopper

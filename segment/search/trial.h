@@ -3,8 +3,9 @@
 // mm2. Cuts make a piece better if, within three cuts of it and its descendants, their unreachable area falls by at
 // least 10 % of the piece's, by 0.2 % of the piece's area, by what the finest tool can tell from nothing
 // (PieceChecks::min_gain_mm2), and by the strip along their joints that is finished by hand (seam_width_mm); or if
-// every piece holds the rules then and it falls by a quarter of what the finest tool can tell. One cut may gain
-// nothing. Every cut made is real: nothing is estimated. On what was chosen:
+// every piece holds the rules then, it falls by a quarter of what the finest tool can tell, and few pieces of the
+// segmentation break a rule (StopJudge::do_few_break_rules): for the last ones, so that all hold, and not for one in
+// two of a hundred. One cut may gain nothing. Every cut made is real: nothing is estimated. On what was chosen:
 // docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests: tests/segment/search/trial_test.cpp.
 
 #pragma once

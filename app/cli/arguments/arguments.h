@@ -130,7 +130,7 @@ struct ExportArguments : ExportRequest {
 };
 
 struct CellsListArguments {
-    std::filesystem::path folder = "cells";
+    std::filesystem::path folder;  // empty: cells, or that of the ready cells where there is none
 };
 
 struct CellsShowArguments {
@@ -198,6 +198,7 @@ struct Arguments {
     bool json = false;  // for the option parser only; run.cpp reads it before
     bool quiet = false;
     bool timings = false;
+    std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
                  CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
@@ -209,5 +210,23 @@ struct Arguments {
 // (use) for unknown options and commands, missing ones, and wrong values; which options go together is not checked
 // (check_arguments.h).
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
+// An option, or an argument without a name.
+struct OptionRow {
+    std::vector<std::string> names;  // "-o", "--out", or "SCAN"
+    std::string about;
+    bool takes_value = false;
+    bool is_required = false;
+};
+
+struct CommandRow {
+    std::string command;  // "cells show"
+    std::string about;
+    std::vector<OptionRow> arguments;
+    std::vector<OptionRow> options;
+};
+
+// The commands that --help lists, in its order. Completions, the index of manual pages and tests are made of it.
+std::vector<CommandRow> command_table();
 
 }  // namespace qchopper

@@ -103,7 +103,7 @@ struct Parser {
     Parser() {
         app.footer(examples_of(""));
         app.require_subcommand(1);
-        app.set_version_flag("--version", std::string("qchopper ") + version);
+        app.set_version_flag("--version", "qchopper " + version());
         add_sample();
         add_inspect();
         add_repair(app, repair, common);
@@ -192,12 +192,14 @@ struct Parser {
         add_common(c, common, [this] { common.command = exported; });
     }
 
-    // Not listed: for who writes a program that reads our documents (docs/developer/formats/job-folder.md).
+    // Not listed: for who writes a program that reads our documents (docs/developer/formats/job-folder.md), and for
+    // what is made of the options, as completions.
     void add_schema() {
-        CLI::App* c = app.add_subcommand("schema", "print the JSON schema of a document")->group("");
-        c->add_option("DOCUMENT", schema.document, "manifest, envelope, ticket, verdict or project")
+        CLI::App* c =
+            app.add_subcommand("schema", "print the JSON schema of a document, or the table of commands")->group("");
+        c->add_option("DOCUMENT", schema.document, "manifest, envelope, ticket, verdict, project or commands")
             ->required()
-            ->check(one_of({"manifest", "envelope", "ticket", "verdict", "project"}));
+            ->check(one_of({"manifest", "envelope", "ticket", "verdict", "project", "commands"}));
         add_common(c, common, [this] { common.command = schema; });
     }
 
@@ -205,21 +207,27 @@ struct Parser {
         CLI::App* c = app.add_subcommand("cells", "list, show and check cell files, and tell where a block can stand");
         c->require_subcommand(1);
         CLI::App* list = c->add_subcommand("list", "list the cell files of a folder");
-        list->add_option("FOLDER", cells_list.folder, "where they lie (cells)");
+        list->add_option("FOLDER", cells_list.folder, "where they lie (cells, or those that came with the program)");
         add_common(list, common, [this] { common.command = cells_list; });
         CLI::App* show = c->add_subcommand("show", "show what a cell file describes");
-        show->add_option("CELL", cells_show.file, "the cell file, NAME.toml")->required();
+        takes_cell_name(
+            show->add_option("CELL", cells_show.file, "the cell file NAME.toml, or the name of a ready cell"))
+            ->required();
         show->add_option("-o,--out", cells_show.out,
                          "a picture to write, .png: what the tool tip reaches at tilts of 0, 30, 60 and 90 degrees");
         add_common(show, common, [this] { common.command = cells_show; });
         CLI::App* check = c->add_subcommand(
             "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
-        check->add_option("CELL", cells_check.file, "the cell file, NAME.toml")->required();
+        takes_cell_name(
+            check->add_option("CELL", cells_check.file, "the cell file NAME.toml, or the name of a ready cell"))
+            ->required();
         add_common(check, common, [this] { common.command = cells_check; });
         CLI::App* reach = c->add_subcommand(
             "reach",
             "tell where on the table a block can stand so that the machine comes to it at a tilt from all around");
-        reach->add_option("CELL", cells_reach.file, "the cell file, NAME.toml")->required();
+        takes_cell_name(
+            reach->add_option("CELL", cells_reach.file, "the cell file NAME.toml, or the name of a ready cell"))
+            ->required();
         reach->add_option("--tilt", cells_reach.tilt_deg, "of the tool from the vertical, degrees")
             ->required()
             ->check(number_between(0, 90, "an angle from 0 to 90 degrees"));
@@ -260,7 +268,8 @@ struct Parser {
         CLI::App* c = app.add_subcommand(
             "verify", "read the robot programs of jobs back, replay them in foam, and write the verdict beside each");
         c->add_option("JOB", verify.input, "a job file NAME.qjob, or the folder NAME.qch of a project")->required();
-        c->add_option("--cell", verify.cell, "the cell file of a job file (cell.toml of the project that it lies in)");
+        takes_cell_name(c->add_option("--cell", verify.cell,
+                                      "the cell file of a job file (cell.toml of the project that it lies in)"));
         c->add_option("--piece", verify.piece, "of a project only this piece");
         add_common(c, common, [this] { common.command = verify; });
     }
@@ -281,7 +290,7 @@ struct Parser {
         c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
             ->check(one_of({"auto", "ask", "never"}));
         c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: a temporary one");
-        c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
+        takes_cell_name(c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file"));
         c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
         c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
@@ -339,7 +348,7 @@ struct Parser {
         for (const auto& [word, what] : commands) {
             CLI::App* one = c->add_subcommand(word, what);
             one->add_option("--to", cell_control.to, "HOST:PORT of the cell");
-            one->add_option("--cell", cell_control.cell, "take address and id from this cell file");
+            takes_cell_name(one->add_option("--cell", cell_control.cell, "take address and id from this cell file"));
             const std::string action = word;
             if (action == "take-over") {
                 one->add_option("--code", cell_control.code, "the code shown at the cell's panel")
@@ -355,7 +364,41 @@ struct Parser {
     }
 };
 
+OptionRow row_of(const CLI::Option& option) {
+    OptionRow row;
+    for (const std::string& name : option.get_snames()) row.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) row.names.push_back("--" + name);
+    if (option.get_positional()) row.names.push_back(option.get_name());
+    row.about = option.get_description();
+    row.takes_value = option.get_items_expected_max() > 0;
+    row.is_required = option.get_required();
+    return row;
+}
+
+// Adds the rows of the listed commands below `command`, whose words are `said`.
+void add_rows(std::vector<CommandRow>& rows, const CLI::App& command, const std::string& said) {
+    for (const CLI::App* sub : command.get_subcommands({})) {
+        if (sub->get_group().empty()) continue;
+        CommandRow row;
+        row.command = said + (said.empty() ? "" : " ") + sub->get_name();
+        row.about = sub->get_description();
+        for (const CLI::Option* option : sub->get_options()) {
+            if (!option->get_positional() && option->get_group().empty()) continue;  // an older name
+            (option->get_positional() ? row.arguments : row.options).push_back(row_of(*option));
+        }
+        rows.push_back(row);
+        add_rows(rows, *sub, row.command);
+    }
+}
+
 }  // namespace
+
+std::vector<CommandRow> command_table() {
+    const Parser parser;
+    std::vector<CommandRow> rows;
+    add_rows(rows, parser.app, "");
+    return rows;
+}
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     Parser parser;

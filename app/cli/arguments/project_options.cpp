@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/arguments/option_values.h"
+#include "app/store/ready_cells.h"
 
 namespace qchopper {
 namespace {
@@ -72,7 +73,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
                 "repair places where the scan runs through itself; cutting does not need that");
     add_units(c, "scan", a.units);
     add_scale(c, a.scale);
-    c->add_option("--cell", a.cell, "the cell file (docs/user/cell-file.md)");
+    takes_cell_name(c->add_option("--cell", a.cell, "the cell file, or the name of a ready cell, as kr60-ha"));
     CLI::Option* tools = add_tools(c, a.tools);
     c->add_option("--finest-tool", a.finest_tool, "finish with no ball-ended tool of a smaller diameter, in mm (all)")
         ->check(CLI::PositiveNumber)
@@ -173,6 +174,13 @@ void add_project(CLI::App* command, std::filesystem::path& project) {
     command->add_option("PROJECT", project, "the folder NAME.qch")->required();
 }
 
+CLI::Option* takes_cell_name(CLI::Option* option) {
+    const std::function<std::string(std::string)> named = [](const std::string& text) {
+        return cell_file_of(text).string();
+    };
+    return option->transform(named);
+}
+
 void add_units(CLI::App* command, const std::string& of, std::optional<std::string>& units) {
     command->add_option("--units", units, "what one unit of the " + of + " is: mm, cm, m, in")
         ->check(one_of({"mm", "cm", "m", "in"}));
@@ -183,6 +191,10 @@ void add_common(CLI::App* command, Arguments& arguments, const std::function<voi
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
     command->add_flag("--timings", arguments.timings,
                       "print where the time went and the peak memory, on stderr; with --json in the document too");
+    command
+        ->add_option("--threads", arguments.threads,
+                     "compute with at most so many threads (as many as there are processors); the results are the same")
+        ->check(number_between(1, 1024, "a number of threads"));
     command->callback(on_parsed);
 }
 
@@ -230,7 +242,8 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
         ->required();
     add_project_options(c, segment);
     c->get_option("--cell")->description(
-        "the cell file (docs/user/cell-file.md), now or later; without one the tool has no radius and tilts by up to "
+        "the cell file, or the name of a ready cell, now or later; without one the tool has no radius and tilts by up "
+        "to "
         "60 degrees");
     c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");
     c->add_option("--top", segment.top, "how many planes to show (10)")

@@ -26,6 +26,8 @@ void add_common(CLI::App* command, Arguments& arguments, const std::function<voi
 // What several commands have: --tools, the folder of a project, and --units of a scan or file.
 CLI::Option* add_tools(CLI::App* command, std::vector<std::uint16_t>& tools);
 void add_project(CLI::App* command, std::filesystem::path& project);
+// Lets the value of an option be the name of a cell (app/store/ready_cells.h) as well as a file.
+CLI::Option* takes_cell_name(CLI::Option* option);
 void add_units(CLI::App* command, const std::string& of, std::optional<std::string>& units);
 
 // Each adds its command, whose arguments become common.command if it is given.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace qchopper {
 namespace {
@@ -15,18 +16,24 @@ const char* word(std::uint16_t part) {
     return words[std::min<std::size_t>(part, 3)];
 }
 
+// In whole steps, so that margins which are equal but for their last digits, as those of mirrored poses are, are ties
+// on every machine: those digits depend on whether sines are computed with fused operations.
+double relative_margin(const CheckRule& rule, double measured) {
+    return std::round((measured - rule.needed) / rule.scale / rounding) * rounding;
+}
+
 }  // namespace
 
 bool MarginTally::wants(PoseCheck check, double least) const {
     const CheckRule& rule = rule_of(check);
-    const double relative = (least - rule.needed) / rule.scale;
+    const double relative = relative_margin(rule, least);
     if (keeps_all_) return relative < of(check).relative;
     return relative < (rule.is_placed ? score_ : -rounding);
 }
 
 void MarginTally::add(PoseCheck check, double measured, MarginPair pair) {
     const CheckRule& rule = rule_of(check);
-    const double relative = (measured - rule.needed) / rule.scale;
+    const double relative = relative_margin(rule, measured);
     const bool is_new_refusal = !rule.is_placed && relative < -rounding && !is_refused_;
     if (is_new_refusal) is_refused_ = true;
     if (is_new_refusal || (rule.is_placed && relative < score_)) worst_pose_ = pose_;

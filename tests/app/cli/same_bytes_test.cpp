@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "app/cli/exit_code.h"
 #include "app/store/project_folder.h"
+#include "base/files/temporary_name.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -37,6 +42,23 @@ Contents project_in(const fs::path& folder) {
 void expect_same(const Contents& one, const Contents& other) {
     EXPECT_EQ(program::difference(one, other), "");
     EXPECT_TRUE(one.contains("jobs/C.qjob") && one.contains("pieces/C.ply") && one.contains("pictures/exploded.png"));
+}
+
+// The name under which a program that has ended wrote a file.
+std::string left_by_a_killed_program(const std::string& name) {
+    int ends[2];
+    EXPECT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const std::string text = temporary_name(name);
+        ::_exit(::write(ends[1], text.data(), text.size()) > 0 ? 0 : 1);
+    }
+    ::close(ends[1]);
+    std::string text(256, '\0');
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(ends[0], text.data(), text.size()))));
+    ::close(ends[0]);
+    EXPECT_EQ(::waitpid(child, nullptr, 0), child);
+    return text;
 }
 
 struct SameBytes : ::testing::Test {
@@ -76,6 +98,13 @@ TEST_F(SameBytes, ElsewhereAndOnOneCore) {
     EXPECT_FALSE(fs::is_empty(folder.path / "scan.qch" / "cache")) << "nothing is kept of what was evaluated";
 }
 
+TEST_F(SameBytes, WithOneThread) {
+    Arguments limited = start();
+    limited.insert(limited.end(), {"--threads", "1"});
+    EXPECT_EQ(program::run(limited, {folder.path}).code, 0);
+    expect_as_prepared();
+}
+
 TEST_F(SameBytes, WhenItsStagesAreTimed) {
     Arguments timed = start();
     timed.push_back("--timings");
@@ -113,7 +142,7 @@ TEST_F(SameBytes, KilledWhileJobsAreWritten) {
     EXPECT_EQ(process.wait().killed_by, SIGKILL);
     EXPECT_EQ(cuts_kept(), 2U);
     // What a program that was killed while it wrote leaves behind is cleared away.
-    program::put(folder.path / "scan.qch" / "jobs" / "D.qjob.tmp.1", "half");
+    program::put(folder.path / "scan.qch" / "jobs" / left_by_a_killed_program("D.qjob"), "half");
     go_on();
     expect_as_prepared();
 }

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/exit_code.h"
+#include "app/store/project_folder.h"
 #include "segment/io/write_mesh.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"
@@ -44,6 +46,14 @@ TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
     }
     const program::Ended shown = run({"setup", "p.qch"});
     EXPECT_NE(shown.out.find("Arm not checked"), std::string::npos) << shown.out;
+}
+
+TEST_F(SetupCommand, ShowsAProjectThatAnotherProgramIsWriting) {
+    const ProjectLock other(folder.path / "p.qch");
+    const program::Ended shown = run({"setup", "p.qch"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    const program::Ended refused = run({"setup", "p.qch", "--piece", project()["pieces"][0]["name"], "--auto"});
+    EXPECT_EQ(refused.code, exit_busy) << refused.err;
 }
 
 TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {

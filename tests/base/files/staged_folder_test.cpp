@@ -73,8 +73,8 @@ TEST_F(Staged, WhatIsAliveOrLockedOrNotOursStays) {
     const std::string ours = *names().begin();
     std::string not_ours = ours;  // another checksum
     not_ours.back() = not_ours.back() == '0' ? '1' : '0';
-    for (const std::string& name :
-         {not_ours, ours.substr(0, ours.find('-')), std::string("a.qch.tmp.1-00000000"), std::string("my.tmp.notes")}) {
+    for (const std::string& name : {not_ours, ours.substr(0, ours.rfind('-')), std::string("a.qch.tmp.1-00000000"),
+                                    std::string("my.tmp.notes")}) {
         fs::create_directory(folder / name);
     }
     const std::set<std::string> before = names();

@@ -143,6 +143,43 @@ TEST(Trial, NeedsAsMuchAsAStripAlongItsJoints) {
     EXPECT_EQ(searched_with(1000 * 12'000 / seam, held).cuts.size(), 1U) << "every piece holds the rules then";
 }
 
+// So many balls in a row. Of the first one, which has most faces, 2,000 mm2 are out of reach, too little for a joint to
+// be worth it, and of the others `others_mm2`; of pieces of a cut ball nothing.
+Found balls_searched(int count, double others_mm2) {
+    std::vector<TriangleMesh> balls;
+    for (int k = 0; k < count; ++k) balls.push_back(shapes::ball({1000.0 * k, 0, 0}, 400, k == 0 ? 12 : 8));
+    const auto reach = [=](const Piece& p) {
+        if (!p.half_spaces.empty()) return none;
+        return too_much(bounds(*p.mesh).centre().x < 500 ? 2'000 : others_mm2);
+    };
+    return searched(shapes::joined(balls), settings_of(), {{}, reach});
+}
+
+TEST(Trial, ThatMakesTheLastPiecesHoldIsWorthItWhateverItGains) {
+    const Found found = balls_searched(3, 2'000);
+    EXPECT_EQ(found.segmentation.cuts.size(), 3U);
+    EXPECT_EQ(found.end.reason, EndReason::rules_hold);
+}
+
+TEST(Trial, ThatGainsLittleIsNotWorthItWhereManyPiecesBreakTheRule) {
+    const Found found = balls_searched(4, 2'000);
+    EXPECT_EQ(found.segmentation.cuts.size(), 0U);
+    EXPECT_EQ(found.end.reason, EndReason::passed_over);
+    ASSERT_EQ(found.end.reverted.size(), 4U);
+    for (const RevertedTrial& trial : found.end.reverted) EXPECT_TRUE(trial.holds);
+    EXPECT_NE(found.end.sentence.find("one cut changed that from 20.0 to 0.0 cm2, less than its joints take by hand"),
+              std::string::npos)
+        << found.end.sentence;
+}
+
+TEST(Trial, ThatGainsLittleIsTakenUpAgainWhenFewPiecesBreakTheRule) {
+    const Found found = balls_searched(5, 100'000);
+    EXPECT_EQ(found.segmentation.cuts.size(), 5U);
+    EXPECT_EQ(found.segmentation.cuts.back().piece, "A") << "the first ball";
+    EXPECT_EQ(found.end.reason, EndReason::rules_hold);
+    EXPECT_TRUE(found.end.reverted.empty());
+}
+
 // A hundredth of the scan's surface, 6 % of it out of reach: little of the scan, and no little of the piece.
 TEST(Trial, OfASmallSolidDoesNotDependOnTheScanAroundIt) {
     const TriangleMesh small = shapes::ball({2000, 0, 0}, 40, 8);

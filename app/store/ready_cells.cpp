@@ -1,0 +1,40 @@
+// Asks the file system for at most four files.
+
+#include "app/store/ready_cells.h"
+
+#include <cstdlib>
+#include <system_error>
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The user's folder of settings; empty: there is none.
+fs::path config_folder() {
+    const char* const set = std::getenv("XDG_CONFIG_HOME");
+    if (set != nullptr && fs::path(set).is_absolute()) return set;
+    const char* const home = std::getenv("HOME");
+    return home != nullptr && fs::path(home).is_absolute() ? fs::path(home) / ".config" : fs::path();
+}
+
+}  // namespace
+
+fs::path ready_cells() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    return program.parent_path().parent_path() / "share" / "qchopper" / "cells";
+}
+
+fs::path cell_file_of(const std::string& text) {
+    std::error_code error;
+    const fs::path given = text;
+    if (given.has_parent_path() || given.has_extension() || fs::exists(given, error)) return given;
+    for (const fs::path& folder : {fs::path("cells"), config_folder() / "qchopper" / "cells", ready_cells()}) {
+        const fs::path file = folder / (text + ".toml");
+        if (fs::is_regular_file(file, error)) return file;
+    }
+    return given;
+}
+
+}  // namespace qchopper
