@@ -100,6 +100,25 @@ TEST(RefinedPlane, LeavesNoMoreAndReportsWhatItLeaves) {
     EXPECT_TRUE(is_better);
 }
 
+// A plane along the caps of a piece stays so, or its block would no longer end in its cap.
+TEST(RefinedPlane, ThatMayNotTurnKeepsItsNormalToTheBit) {
+    const Segmentation segmentation = bone(Specimen::skull);
+    const Piece& piece = segmentation.pieces[0];
+    bool is_moved = false;
+    bool turns_otherwise = false;
+    for (const double share : {0.3, 0.5, 0.7}) {
+        const Plane from = plane_at(piece, {0, 0, 1}, share);
+        DenseAccess access(piece, 60);
+        const RefinedPlane kept = refined_plane(access, piece, from, 1, {}, {}, false);
+        EXPECT_EQ(kept.plane.normal, from.normal);
+        EXPECT_LE(kept.unreachable_mm2, access.unreachable_mm2(from));
+        is_moved |= kept.plane.offset != from.offset;
+        turns_otherwise |= refined_plane(access, piece, from, 1, {}).plane.normal != from.normal;
+    }
+    EXPECT_TRUE(is_moved);
+    EXPECT_TRUE(turns_otherwise) << "nothing was kept from turning";
+}
+
 TEST(RefinedPlane, IsTheSameForAnyNumberOfThreads) {
     const Segmentation segmentation = bone(Specimen::vertebra);
     const Piece& piece = segmentation.pieces[0];
