@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
-constexpr std::uint32_t version_of_programs = 3;
+constexpr std::uint32_t version_of_programs = 4;
 
 void put(CacheWriter& out, const Vec3& v) {
     for (const double x : {v.x, v.y, v.z}) out.put(x);
@@ -48,7 +48,7 @@ std::vector<JobHole> holes_of(const std::vector<DrawnCap>& caps) {
 JobInput without_others(const JobInput& job) {
     JobInput own = job;
     own.piece_no = own.piece_count = 1;
-    own.program_version.clear();
+    own.program_version.resize(std::min(own.program_version.find('+'), own.program_version.size()));  // any build
     own.project_id = {};
     own.scan_sha256 = {};
     own.alternatives.clear();
@@ -151,6 +151,7 @@ std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource&
     PiecePrograms programs;
     const auto number = in.get<std::uint16_t>();
     programs.none_because = text_from(in);
+    programs.is_machine_refusing = in.get<std::uint8_t>() != 0;
     if (in.get<std::uint8_t>() != 0) programs.place = placement_from(in);
     std::vector<std::size_t> drilled;
     std::map<std::size_t, std::string> reasons;
@@ -207,6 +208,7 @@ void keep_programs(const fs::path& file, const ProgramSource& source, const Piec
     CacheWriter out;
     out.put(source.job.piece_no);
     out.put(programs.none_because);
+    out.put(static_cast<std::uint8_t>(programs.is_machine_refusing));
     out.put(static_cast<std::uint8_t>(programs.place.has_value()));
     if (programs.place) put(out, *programs.place);
     const std::vector<JobHole> holes = holes_of(programs.caps);

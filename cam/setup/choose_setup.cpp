@@ -185,7 +185,7 @@ class Choice {
         SurfaceAccess& access = setup.access;
         access.area_mm2 = of_base.area_mm2;
         access.ignored_mm2 = ignored_mm2(*piece_.mesh);
-        access.allowed_mm2 = setup.base ? allowed_mm2_ : 0;
+        access.allowed_mm2 = allowed_mm2_;
         for (const ChosenDirection& d : directions.chosen) {
             access.orientations.push_back(described(d, setup, access.area_mm2));
         }

@@ -92,11 +92,13 @@ TEST_F(KeptPrograms, AreThoseThatWereMade) {
     own_programs.place = BlockPlacement{1.0 / 3, -2, 0.5, {1, 2}};
     own_programs.parts.clear();
     own_programs.none_because = "no arm reaches it";
+    own_programs.is_machine_refusing = true;
     keep_programs(file(own_job), {own_job, cell_file}, own_programs);
     const std::optional<PiecePrograms> none = kept(own_job);
     ASSERT_TRUE(none) << "that there is none takes as long to find";
     EXPECT_EQ(none->place, own_programs.place);
     EXPECT_EQ(none->none_because, own_programs.none_because);
+    EXPECT_TRUE(none->is_machine_refusing) << "a run that goes on takes fewer tool orientations too";
     EXPECT_TRUE(none->parts.empty());
 }
 
@@ -105,6 +107,7 @@ TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
     EXPECT_FALSE(is_kept_after([](JobInput& job) { job.setup.placement.x += 1; }));
     EXPECT_FALSE(is_kept_after([](JobInput& job) { job.setup.access.orientations[1].tool_axis.x += 1e-9; }));
     EXPECT_FALSE(is_kept_after([](JobInput& job) { job.program_version = "0.2.0"; }));
+    EXPECT_TRUE(is_kept_after([](JobInput& job) { job.program_version += "+1a2b3c4d5e6f"; })) << "another build";
     EXPECT_FALSE(is_kept_after([](JobInput& job) { job.piece.half_spaces[0].plane.offset += 1e-9; }));
     EXPECT_FALSE(is_kept_after([](JobInput& job) { job.caps[0].cap.joints[0].holes[0].depth += 1; }));
     EXPECT_FALSE(is_kept_after([](JobInput& job) {
