@@ -176,6 +176,28 @@ std::optional<ProgramFiles> swap_chunks(const ProgramFiles& files) {
     return changed;
 }
 
+// What finishes is said to be, and held as, the tool of the first chunk, which roughs and does not get to all of it.
+std::optional<ProgramFiles> finish_with_the_roughing_tool(const ProgramFiles& files) {
+    const std::size_t first = next_chunk(files);
+    if (first >= files.size()) return std::nullopt;
+    const Lines roughing = lines_of(files[first].text);
+    ProgramFiles changed = files;
+    bool is_changed = false;
+    for (std::size_t i = next_chunk(files, first + 1); i < files.size(); i = next_chunk(files, i + 1)) {
+        if (files[i].text.find(";operation finishing\r\n") == std::string::npos) continue;
+        Lines lines = lines_of(files[i].text);
+        for (const char* word : {";tool", "$tool", "$load"}) {
+            const auto is_such = [word](const std::string& line) { return begins(line, word); };
+            const auto from = std::find_if(roughing.begin(), roughing.end(), is_such);
+            const auto to = std::find_if(lines.begin(), lines.end(), is_such);
+            if (from != roughing.end() && to != lines.end()) *to = *from;
+        }
+        changed[i].text = text_of(lines);
+        is_changed = is_changed || changed[i].text != files[i].text;
+    }
+    return is_changed ? std::optional(changed) : std::nullopt;
+}
+
 // Two chunks take each other's orientation.
 std::optional<ProgramFiles> exchange_directions(const ProgramFiles& files) {
     const auto pose_of = [](const ProgramFile& file) {
@@ -348,6 +370,7 @@ void add_chunks(std::vector<Mutation>& all) {
     all.push_back(in_main("last_fine_finishing_lost", lose_operation("fine finishing", true)));
     all.push_back(in_roughing("depth_doubled", double_depth));
     all.push_back(of_files("chunks_exchanged", swap_chunks));
+    all.push_back(of_files("finishing_given_to_the_roughing_tool", finish_with_the_roughing_tool));
     all.push_back(in_main("calls_exchanged", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
         if (calls.size() < 2) return false;
         std::swap(lines[calls.front()], lines[calls.back()]);
