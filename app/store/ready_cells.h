@@ -12,10 +12,9 @@ namespace qchopper {
 std::filesystem::path ready_cells();
 
 // The path of the cell file that is meant by `text`: a path as it is; a name without folder and ending, such as
-// kr60-ha, of which no file is there, is looked for as NAME.toml in the folder cells, in
-// $XDG_CONFIG_HOME/qchopper/cells
-// (~/.config if that is not set; XDG Base Directory Specification 0.8) and in ready_cells(), in this order. The text as
-// it is where none has it.
+// kr60-ha, of which no file is there, is looked for as NAME.toml in the folder cells, in qchopper/cells of
+// $XDG_CONFIG_HOME (~/.config if that is not set; XDG Base Directory Specification 0.8) and in ready_cells(), in this
+// order. The text as it is where none has it.
 std::filesystem::path cell_file_of(const std::string& text);
 
 }  // namespace qchopper
