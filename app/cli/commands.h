@@ -24,6 +24,7 @@ int run(const CellsShowArguments& arguments, Terminal& terminal);
 int run(const CellsCheckArguments& arguments, Terminal& terminal);
 int run(const CellsReachArguments& arguments, Terminal& terminal);
 int run(const SetupArguments& arguments, Terminal& terminal);
+int run(const WorkArguments& arguments, Terminal& terminal);
 int run(const VerifyArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);

@@ -7,6 +7,7 @@
 
 #include "app/report/report_json.h"
 #include "app/report/time_report.h"
+#include "base/enum_names.h"
 #include "base/printable.h"
 #include "base/text.h"
 
@@ -14,6 +15,14 @@ namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr EnumNames<ProgramOutcome, 3> outcome_names{
+    {{ProgramOutcome::proven, "proven"}, {ProgramOutcome::refused, "refused"}, {ProgramOutcome::none, "none"}}};
+
+std::size_t count_of(const WorkAnswer& answer, ProgramOutcome outcome) {
+    return static_cast<std::size_t>(std::count_if(answer.pieces.begin(), answer.pieces.end(),
+                                                  [&](const WorkedPiece& piece) { return piece.outcome == outcome; }));
+}
 
 // Of all parts of a program.
 std::size_t drilled_holes(const PieceReport& piece) {
@@ -50,6 +59,39 @@ std::string program_word(const PieceReport& piece) {
     if (piece.verdicts.size() > 1) word += " in " + std::to_string(piece.verdicts.size()) + " parts";
     if (const std::size_t holes = drilled_holes(piece); holes > 0) word += ", " + counted(holes, "hole");
     return word + (piece.is_proven() ? ", verified" : ", REFUSED");
+}
+
+std::string worked_line(const WorkedPiece& piece) {
+    const std::string begin = "piece " + piece.name + ": ";
+    if (piece.outcome == ProgramOutcome::none) return begin + "no programs, " + piece.none_because;
+    return begin + "programs " + outcome_names(piece.outcome) + ", " +
+           duration(static_cast<std::uint32_t>(piece.time_s)) + (piece.was_kept ? ", kept from an earlier run" : "");
+}
+
+std::vector<std::string> lines(const WorkAnswer& answer) {
+    std::vector<std::string> text;
+    text.push_back("Shard " + std::to_string(answer.shard.number) + " of " + std::to_string(answer.shard.count) + ": " +
+                   counted(answer.pieces.size(), "piece") + " of " + std::to_string(answer.piece_count) + ", " +
+                   std::to_string(count_of(answer, ProgramOutcome::proven)) + " proven, " +
+                   std::to_string(count_of(answer, ProgramOutcome::refused)) + " refused, " +
+                   std::to_string(count_of(answer, ProgramOutcome::none)) + " without programs.");
+    text.push_back("Next, when all shards are done: qchopper prepare " + shell_word(answer.folder) + " --programs");
+    return text;
+}
+
+Document document(const WorkAnswer& answer) {
+    const auto piece_json = [](const WorkedPiece& piece) {
+        Json json{{"piece", piece.name}, {"outcome", outcome_names(piece.outcome)}, {"kept", piece.was_kept}};
+        if (piece.outcome == ProgramOutcome::none) json["no_program_because"] = piece.none_because;
+        if (piece.outcome != ProgramOutcome::none) json["time_s"] = piece.time_s;
+        return json;
+    };
+    return compose(Json{{"schema", "qchopper-work-1"},
+                        {"project", answer.folder.string()},
+                        {"shard", answer.shard.number},
+                        {"shards", answer.shard.count},
+                        {"piece_count", answer.piece_count},
+                        {"pieces", list_of(answer.pieces, piece_json)}});
 }
 
 std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder) {

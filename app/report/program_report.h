@@ -7,12 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "app/engine/work_project.h"
 #include "app/jobs/piece_jobs.h"
+#include "app/report/document.h"
 
 namespace qchopper {
 
 // "3 h 20 min, 4 holes, verified", "-" without a program.
 std::string program_word(const PieceReport& piece);
+
+// "piece B: programs proven, 3 h 20 min", "piece C: no programs, the saw alone makes it".
+std::string worked_line(const WorkedPiece& piece);
+
+// The end of `work`: how many of the shard's pieces have programs, and what comes next.
+std::vector<std::string> lines(const WorkAnswer& answer);
+// The document qchopper-work-1 (tests/app/cli/work_test.cpp).
+Document document(const WorkAnswer& answer);
 
 // What speaks against the program, and the notes of its verdict: one sentence each, which names the piece.
 std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder);

@@ -129,6 +129,11 @@ struct ExportArguments : ExportRequest {
     std::filesystem::path project;
 };
 
+struct WorkArguments {
+    std::filesystem::path project;
+    std::optional<std::string> shard;  // option_values.h reads it
+};
+
 struct CellsListArguments {
     std::filesystem::path folder;  // empty: cells, or that of the ready cells where there is none
 };
@@ -201,7 +206,7 @@ struct Arguments {
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
+                 CellsReachArguments, SetupArguments, WorkArguments, VerifyArguments, DryRunArguments, CellSimArguments,
                  DispatchArguments, JournalArguments, CellControlArguments, SchemaArguments>
         command;
 };

@@ -209,6 +209,16 @@ std::optional<DiscardRequest> discard_from(const std::string& text) {
     return request;
 }
 
+std::optional<Shard> shard_from(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos) return std::nullopt;
+    const std::optional<std::size_t> count = place_from(text.substr(slash + 1));
+    const std::optional<double> number = number_from(text.substr(0, slash));
+    if (!count || !number || *number < 0 || *number >= static_cast<double>(*count)) return std::nullopt;
+    if (*number != std::floor(*number)) return std::nullopt;
+    return Shard{static_cast<std::size_t>(*number), *count};
+}
+
 std::optional<std::size_t> place_from(const std::string& text) {
     const std::optional<double> value = number_from(text);
     if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/engine/discard_request.h"
+#include "app/engine/work_project.h"
 #include "app/store/decisions.h"
 #include "segment/io/formats/raw_mesh.h"
 #include "segment/mesh/plane.h"
@@ -41,6 +42,9 @@ std::optional<StructureOptions> load_from(const std::string& text);
 
 // "A,C,below=50ml": names of pieces and at most one volume above 0 in mm3, cm3, ml or l, in any order.
 std::optional<DiscardRequest> discard_from(const std::string& text);
+
+// "0/4": number and count of a shard, 0 <= number < count <= 1e6.
+std::optional<Shard> shard_from(const std::string& text);
 
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);

@@ -91,6 +91,7 @@ struct Parser {
     CellsCheckArguments cells_check;
     CellsReachArguments cells_reach;
     SetupArguments setup;
+    WorkArguments work;
     VerifyArguments verify;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
@@ -113,6 +114,7 @@ struct Parser {
         add_export();
         add_cells();
         add_setup();
+        add_work();
         add_verify();
         add_dry_run();
         add_cell_sim();
@@ -262,6 +264,15 @@ struct Parser {
             ->excludes(older)
             ->excludes(tools);
         add_common(c, common, [this] { common.command = setup; });
+    }
+
+    void add_work() {
+        CLI::App* c = app.add_subcommand(
+            "work", "make the robot programs of some pieces of a prepared project, beside others that make the rest");
+        add_project(c, work.project);
+        c->add_option("--shard", work.shard, "I/N: those of part I of N, from 0 to N - 1 (0/1: all)")
+            ->check(read_by(shard_from, "no I/N with I from 0 to N - 1"));
+        add_common(c, common, [this] { common.command = work; });
     }
 
     void add_verify() {
