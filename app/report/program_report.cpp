@@ -12,12 +12,25 @@
 #include "base/text.h"
 
 namespace qchopper {
-namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr EnumNames<ProgramOutcome, 3> outcome_names{
     {{ProgramOutcome::proven, "proven"}, {ProgramOutcome::refused, "refused"}, {ProgramOutcome::none, "none"}}};
+constexpr auto names_of(ProgramOutcome) {
+    return outcome_names;
+}
+
+template <class V, Of<WorkedPiece> T>
+void fields(V& v, T& piece) {
+    v("piece", piece.name);
+    v("outcome", piece.outcome);
+    v("kept", piece.was_kept);
+    v("time_s", piece.time_s);
+    v.maybe("no_program_because", piece.none_because);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::size_t count_of(const WorkAnswer& answer, ProgramOutcome outcome) {
     return static_cast<std::size_t>(std::count_if(answer.pieces.begin(), answer.pieces.end(),
@@ -71,7 +84,7 @@ std::string worked_line(const WorkedPiece& piece) {
 std::vector<std::string> lines(const WorkAnswer& answer) {
     std::vector<std::string> text;
     text.push_back("Shard " + std::to_string(answer.shard.number) + " of " + std::to_string(answer.shard.count) + ": " +
-                   counted(answer.pieces.size(), "piece") + " of " + std::to_string(answer.piece_count) + ", " +
+                   std::to_string(answer.pieces.size()) + " of " + std::to_string(answer.piece_count) + " pieces, " +
                    std::to_string(count_of(answer, ProgramOutcome::proven)) + " proven, " +
                    std::to_string(count_of(answer, ProgramOutcome::refused)) + " refused, " +
                    std::to_string(count_of(answer, ProgramOutcome::none)) + " without programs.");
@@ -80,18 +93,15 @@ std::vector<std::string> lines(const WorkAnswer& answer) {
 }
 
 Document document(const WorkAnswer& answer) {
-    const auto piece_json = [](const WorkedPiece& piece) {
-        Json json{{"piece", piece.name}, {"outcome", outcome_names(piece.outcome)}, {"kept", piece.was_kept}};
-        if (piece.outcome == ProgramOutcome::none) json["no_program_because"] = piece.none_because;
-        if (piece.outcome != ProgramOutcome::none) json["time_s"] = piece.time_s;
-        return json;
-    };
-    return compose(Json{{"schema", "qchopper-work-1"},
-                        {"project", answer.folder.string()},
-                        {"shard", answer.shard.number},
-                        {"shards", answer.shard.count},
-                        {"piece_count", answer.piece_count},
-                        {"pieces", list_of(answer.pieces, piece_json)}});
+    Json json;
+    json_values::JsonWriter writer(json);
+    writer("schema", std::string("qchopper-work-1"));
+    writer("project", answer.folder.string());
+    writer("shard", answer.shard.number);
+    writer("shards", answer.shard.count);
+    writer("piece_count", answer.piece_count);
+    writer("pieces", answer.pieces);
+    return compose(json);
 }
 
 std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder) {
