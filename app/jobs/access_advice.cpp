@@ -47,6 +47,10 @@ std::string holder_remedy(const AdviceInput& input, const Cell& cell) {
 
 std::string directions_remedy(const AdviceInput& input, const Cell&) {
     const std::size_t most = input.max_directions;
+    if (input.is_limited) {
+        return "finishing by hand: it is limited to " + counted(most, "tool orientation") + ", see " +
+               input.setup_command;
+    }
     // Where fewer were chosen than allowed, a further one gains too little to be worth a program of its own.
     if (input.access.orientations.size() < most)
         return "finishing by hand: no further orientation gains half a percent";

@@ -36,8 +36,9 @@ struct AdviceInput {
     double inside_share = 0;         // of inside_share()
     double tilt_deg = 60;            // the largest of the cell
     std::size_t max_directions = 8;  // that were allowed
-    std::string segment_command;     // "qchopper segment FOLDER --piece B --step"
-    std::string setup_command;       // "qchopper setup FOLDER --piece B"
+    bool is_limited = false;  // by a decision on this piece: the operator's, or because the arm does not follow more
+    std::string segment_command;  // "qchopper segment FOLDER --piece B --step"
+    std::string setup_command;    // "qchopper setup FOLDER --piece B"
 };
 
 // One for each kind of which there is at least 0.1 %, the largest share first. The shares of kinds but the holder are

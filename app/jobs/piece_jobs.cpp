@@ -64,6 +64,7 @@ std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& proj
     input.tilt_deg = max_tilt_deg(cell);
     const SetupOrder order = committed_setup_order(project.history, piece.name);
     input.max_directions = order.max_directions.value_or(SetupOptions{}.max_directions);
+    input.is_limited = order.max_directions.has_value();
     const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
     input.segment_command = "qchopper segment " + of_piece + " --step";
     input.setup_command = "qchopper setup " + of_piece;

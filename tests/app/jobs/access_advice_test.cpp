@@ -59,6 +59,11 @@ TEST(AccessAdvice, OfEachKindNamesItsRemedy) {
          "SETUP --orientations 12"},
         {"none worth it", [](AdviceInput& i) { i.access.hidden_mm2 = 40, i.access.orientations.resize(4); },
          AccessFault::few_orientations, 0.04, "by hand"},
+        {"limited by a decision",
+         [](AdviceInput& i) {
+             i.access.hidden_mm2 = 40, i.access.orientations.resize(3), i.max_directions = 3, i.is_limited = true;
+         },
+         AccessFault::few_orientations, 0.04, "by hand: it is limited to 3 tool orientations, see SETUP"},
         {"tilt", [](AdviceInput& i) { i.access.hidden_mm2 = 40, i.access.all_directions_share = 0.05; },
          AccessFault::tilt, 0.04, "a larger tilt than 60 degrees, or another cut: SEGMENT"},
         {"flat tool",
