@@ -63,6 +63,7 @@ Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviati
     coloured.palette = palette;
     coloured.colour_of = colours;
     std::vector<LegendEntry> legend;
+    legend.reserve(ranges.size());
     for (const DeviationRange& range : ranges) legend.push_back({range.colour, range.name});
     return draw_two_sides(std::span(&coloured, 1), legend, layout);
 }

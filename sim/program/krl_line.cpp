@@ -51,7 +51,7 @@ std::string KrlLine::word() {
     pass_space();
     if (!rest_.empty() && is_digit(rest_.front())) return {};
     const auto length = std::find_if_not(rest_.begin(), rest_.end(), is_of_word) - rest_.begin();
-    const std::string found = lower_case(rest_.substr(0, static_cast<std::size_t>(length)));
+    std::string found = lower_case(rest_.substr(0, static_cast<std::size_t>(length)));
     rest_.remove_prefix(found.size());
     return found;
 }

@@ -36,7 +36,7 @@ int run(std::uint64_t count, std::uint64_t first) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const ScheduleEnd end = run_schedule(first + i);
         sum.add(end);
-        if (!end.is_right()) std::printf("seed %llu failed\n", static_cast<unsigned long long>(first + i));
+        if (!end.is_right()) std::printf("seed %s failed\n", std::to_string(first + i).c_str());
         if ((i + 1) % report_every == 0) print(i + 1, sum);
     }
     print(count, sum);

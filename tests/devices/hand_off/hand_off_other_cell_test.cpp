@@ -57,7 +57,7 @@ TEST(HandOffOtherCell, ThatAnswersAfterStartLeavesTheVerdictToTheFirst) {
 
 // The answer to the read of IDENTITY is damaged from then on.
 void damage_identity(ScriptedCell& cell) {
-    cell.lose = [&cell](const HandOffAction& action) { return action.kind == Kind::read_identity; };
+    cell.lose = [](const HandOffAction& action) { return action.kind == Kind::read_identity; };
 }
 
 bool step_with_damage(ScriptedCell& cell) {

@@ -64,7 +64,7 @@ struct TcpFaultProxy::Loop {
     explicit Loop(std::uint16_t port) : cell_port(port), listener(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
         sockaddr_in address = loopback(0);
         socklen_t size = sizeof address;
-        bind(listener, reinterpret_cast<sockaddr*>(&address), size);
+        static_cast<void>(bind(listener, reinterpret_cast<sockaddr*>(&address), size));
         listen(listener, 16);
         getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
         own_port = ntohs(address.sin_port);

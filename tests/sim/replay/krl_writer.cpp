@@ -37,7 +37,7 @@ std::string axes_text(const Joints& joints, const std::optional<double>& e1) {
 
 class Writer {
  public:
-    Writer(const Cell& cell, const WrittenJob& job) : cell_(cell), machine_(*cell.machine), job_(job) {}
+    Writer(const Cell& cell, const WrittenJob& job) : machine_(*cell.machine), job_(job) {}
     std::vector<ProgramFile> write() const {
         std::vector<ProgramFile> files{{"qc_1.src", main_text()},
                                        {"qc_1.dat", "DEFDAT qc_1\r\n;nothing\r\nENDDAT\r\n"}};
@@ -76,7 +76,6 @@ class Writer {
     Pose tip_in_setup(const WrittenChunk& chunk, Vec3 tip) const;
     Joints joints_at(const WrittenChunk& chunk) const;
 
-    const Cell& cell_;
     const CellMachine& machine_;
     const WrittenJob& job_;
 };
