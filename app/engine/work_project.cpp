@@ -63,6 +63,7 @@ WorkAnswer work_project(const std::filesystem::path& folder, const Shard& shard,
     const std::vector<PieceJoint> joints =
         piece_joints(segmentation.pieces, joint_settings(&open.setups()->cell()), context);
     std::vector<Piece> pieces;
+    pieces.reserve(own.size());
     for (const std::size_t piece : own) pieces.push_back(segmentation.pieces[piece]);
     open.setups()->place(pieces, context);
     std::vector<WorkedPiece> worked(own.size());

@@ -28,10 +28,10 @@ fs::path ready_cells() {
 
 fs::path cell_file_of(const std::string& text) {
     std::error_code error;
-    const fs::path given = text;
+    fs::path given = text;
     if (given.has_parent_path() || given.has_extension() || fs::exists(given, error)) return given;
     for (const fs::path& folder : {fs::path("cells"), config_folder() / "qchopper" / "cells", ready_cells()}) {
-        const fs::path file = folder / (text + ".toml");
+        fs::path file = folder / (text + ".toml");
         if (fs::is_regular_file(file, error)) return file;
     }
     return given;

@@ -39,6 +39,7 @@ int take_build_id(dl_phdr_info* file, std::size_t /*size*/, void* id) {
     for (ElfW(Half) i = 0; i < file->dlpi_phnum; ++i) {
         const ElfW(Phdr)& segment = file->dlpi_phdr[i];
         if (segment.p_type != PT_NOTE) continue;
+        // The linker gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
         const auto* notes = reinterpret_cast<const std::uint8_t*>(file->dlpi_addr + segment.p_vaddr);
         const std::string found = build_id_in(notes, segment.p_memsz);
         if (!found.empty()) *static_cast<std::string*>(id) = found;
