@@ -57,7 +57,7 @@ WorkAnswer work_project(const std::filesystem::path& folder, const Shard& shard,
     OpenProject open(folder, context);
     open.check_cell();
     check(open.project(), folder, open.setups()->cell());
-    context.saved("The project is unchanged; programs that are made already are kept.");
+    context.saved("The project is unchanged; programs that are made are kept, and the same command makes the rest.");
     const Segmentation& segmentation = open.segmentation();
     const std::vector<std::size_t> own = pieces_of(shard, segmentation.pieces);
     const std::vector<PieceJoint> joints =

@@ -29,7 +29,8 @@ fs::path ready_cells() {
 fs::path cell_file_of(const std::string& text) {
     std::error_code error;
     fs::path given = text;
-    if (given.has_parent_path() || given.has_extension() || fs::exists(given, error)) return given;
+    const bool is_path = given.has_parent_path() || given.extension() == ".toml";  // irb6640-185-2.8 is a name
+    if (is_path || fs::is_regular_file(given, error)) return given;
     for (const fs::path& folder : {fs::path("cells"), config_folder() / "qchopper" / "cells", ready_cells()}) {
         fs::path file = folder / (text + ".toml");
         if (fs::is_regular_file(file, error)) return file;

@@ -66,8 +66,9 @@ class Package(unittest.TestCase):
         files = {Path(row["file"]) for row in listed["cells"]}
         self.assertEqual({file.stem for file in files}, CELLS)
         self.assertTrue(all(self.root in file.parents for file in files), files)
-        shown = json.loads(run(self.program, "cells", "show", "kr60-ha", "--json", cwd=self.elsewhere))
-        self.assertIn("KUKA", json.dumps(shown))
+        for name in CELLS:
+            shown = json.loads(run(self.program, "cells", "show", name, "--json", cwd=self.elsewhere))
+            self.assertIn(f"{name}.toml", json.dumps(shown))
         own = self.elsewhere / "cells" / "kr60-ha.toml"
         own.parent.mkdir()
         own.write_text((ROOT / "cells" / "kr60-ha.toml").read_text().replace("KUKA KR 60 HA", "Cell of the workshop"))
