@@ -58,16 +58,38 @@ void add_project_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps
     steps.push_back({"dry-run", "dry-run, all jobs", {"dry-run", project}, "prepared", ""});
 }
 
-// The bunny, whose scan is in metres, at 1.5 m: pieces, programs and their proofs.
-void add_program_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps) {
-    for (const std::string name : {"kr60-ha", "kr120-r2500-pro-rotary"}) {
-        steps.push_back(
-            {"programs",
-             "prepare with programs at 1.5 m, " + name,
-             {"prepare", s.scan.string(), "--units", "m", "--scale", "9.63397", "--cell", cell(name), "-o", project},
-             "",
-             "",
-             true});
+// Models in the size in which they are carved, and the cells that carve them.
+struct WholeModel {
+    std::string name;
+    std::string unit;
+    std::string scale;
+    std::vector<std::string> cells;
+};
+
+const std::vector<WholeModel>& whole_models() {
+    static const std::vector<WholeModel> all{{"bunny", "m", "9.63397", {"kr60-ha", "kr120-r2500-pro-rotary"}},
+                                             {"igea", "mm", "10066.64", {"kr60-ha", "kr120-r2500-pro-rotary"}},
+                                             {"gorilla", "mm", "3.7154", {"irb6640-185-2.8"}},
+                                             {"CT head 371k", "mm", "5.5866", {"kr60-ha"}}};
+    return all;
+}
+
+// The bunny at 1.5 m and others at 1 m: pieces alone, or with programs and their proofs.
+void add_whole_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps) {
+    const auto& all = whole_models();
+    const auto model = std::find_if(all.begin(), all.end(), [&](const WholeModel& m) { return m.name == s.name; });
+    if (model == all.end()) return;
+    for (const bool has_programs : {false, true}) {
+        for (const std::string& name : model->cells) {
+            CommandStep step;
+            step.group = has_programs ? "programs" : "setups";
+            step.name = std::string("prepare ") + (has_programs ? "with programs, " : "--no-programs, ") + name;
+            step.words = {"prepare",    s.scan.string(), "--units",  model->unit, "--scale",
+                          model->scale, "--cell",        cell(name), "-o",        project};
+            if (!has_programs) step.words.emplace_back("--no-programs");
+            step.is_long = true;
+            steps.push_back(step);
+        }
     }
 }
 
@@ -75,10 +97,14 @@ void add_program_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps
 
 std::vector<CommandSpecimen> command_specimens(const fs::path& data, const fs::path& made, bool is_small) {
     CommandSpecimen bunny{"bunny", data / "bunny_bun_zipper.ply", 0, "m", {0, 6}, 2000, all_groups()};
-    bunny.groups.insert("programs");
+    bunny.groups.insert({"setups", "programs"});
+    CommandSpecimen ct_head{"CT head 371k", data / "ct_head_371k.ply", 0, "mm", {0, 6}, 5000, all_groups()};
+    ct_head.groups.insert("setups");
     if (is_small) return {bunny, {"skull 100k", made / "skull_100k.ply", 100'000, "mm", {0, 6}, 2000, all_groups()}};
     return {bunny,
-            {"CT head 371k", data / "ct_head_371k.ply", 0, "mm", {0, 6}, 5000, all_groups()},
+            {"igea", data / "igea_268k.ply", 0, "mm", {}, 0, {"setups"}},
+            {"gorilla", data / "gorilla_skull_159k.ply", 0, "mm", {}, 0, {"setups"}},
+            ct_head,
             {"skull 1.9M", made / "skull_1900k.ply", 1'900'000, "mm", {12, 20}, 50'000, all_groups()},
             {"CT head 1.9M", data / "ct_head_1912k.ply", 0, "mm", {0}, 50'000, {"inspect", "repair", "prepare"}},
             {"skull 10M", made / "skull_10M.ply", 10'000'000, "mm", {1}, 50'000, {"inspect", "prepare"}}};
@@ -89,7 +115,7 @@ std::vector<CommandStep> command_steps(const CommandSpecimen& specimen, const st
     add_scan_steps(specimen, all);
     add_segment_steps(specimen, all);
     add_project_steps(specimen, all);
-    add_program_steps(specimen, all);
+    add_whole_steps(specimen, all);
     std::vector<CommandStep> chosen;
     std::set<std::string> needed;  // projects that later steps start from
     for (auto step = all.rbegin(); step != all.rend(); ++step) {

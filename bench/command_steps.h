@@ -12,12 +12,13 @@ namespace qchopper::bench {
 // One command of the program. In its words "@/" stands for the folder of the run, which holds nothing but the project
 // p.qch that the step starts from.
 struct CommandStep {
-    std::string group;  // "inspect", "repair", "prepare", "segment", "explain", "export", "dry-run", "programs"
-    std::string name;   // "prepare, 6 cuts"
+    std::string
+        group;  // "inspect", "repair", "prepare", "segment", "explain", "export", "dry-run", "setups", "programs"
+    std::string name;  // "prepare, 6 cuts"
     std::vector<std::string> words;
     std::string from;      // the kept project that it starts from; empty: none
     std::string keep;      // the name under which its project is kept for later steps; empty: it is not kept
-    bool is_long = false;  // an hour: it is run once, and only if its group is named
+    bool is_long = false;  // minutes to an hour: it is run once, and only if its group is named
 };
 
 struct CommandSpecimen {

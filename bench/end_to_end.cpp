@@ -23,8 +23,8 @@ constexpr const char* usage =
   --old    another one, which runs by turns with it
   --data   where bunny_bun_zipper.ply, ct_head_371k.ply and ct_head_1912k.ply lie
   --small  the bunny and 100,000 faces instead
-  --only   inspect, repair, prepare, segment, explain, export or dry-run, all if none is named; or programs, which takes
-           two hours: the bunny at 1.5 m for both KUKA cells, with proofs
+  --only   inspect, repair, prepare, segment, explain, export or dry-run, all if none is named; or setups, the pieces of
+           four models at 1 and 1.5 m, a quarter of an hour; or programs, the bunny at 1.5 m with proofs, half an hour
 )";
 
 struct Options {

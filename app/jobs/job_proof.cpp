@@ -166,7 +166,7 @@ std::optional<StockRecord> stock_before(const ProofInput& input) {
 }
 
 // Of what must be milled and of what is not: none before the last part, when the piece is not there yet.
-std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool has_order) {
+std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool leaves_tools_out) {
     const double percent = 100;
     const LeftoverFigures& left = report.leftover;
     const auto points = [&](double mm2) { return percent * ReplayReport::ratio(mm2, left.area_mm2); };
@@ -177,8 +177,8 @@ std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool has_or
         {"given_up_percent", "given up, of the surface, by tools and orientations left out",
          points(left.given_up_mm2()), "%", 2},
         {"given_up_cm2", "surface given up by them", left.given_up_mm2() / 100, "cm2", 1}};
-    if (has_order) {
-        figures.push_back({"not_allowed_percent", "given up, of the surface, for tools that may not be used",
+    if (leaves_tools_out) {
+        figures.push_back({"not_allowed_percent", "given up, of the surface, for tools that the setup leaves out",
                            points(left.not_allowed_mm2()), "%", 2});
         figures.push_back({"not_allowed_cm2", "surface given up for them", left.not_allowed_mm2() / 100, "cm2", 1});
     }
@@ -241,10 +241,13 @@ void check_left_out(const ReplayScene& scene, const JobProgram& program, JobProo
     }
 }
 
-// What the manifest says of the program that is no fault of it.
-std::vector<std::string> notes_of(const JobProgram& program, const std::vector<std::uint16_t>& allowed) {
+// What the manifest says of the program that is no fault of it. That of each kind of tool one stick-out is used
+// (tool_sets()) is none: no tool is given up for that.
+std::vector<std::string> notes_of(const JobProgram& program, const std::vector<std::uint16_t>& allowed,
+                                  const std::vector<CuttingTool>& tools) {
     std::vector<std::string> notes;
-    if (!allowed.empty()) {
+    const std::vector<std::vector<std::uint16_t>> sets = tool_sets(tools);
+    if (!allowed.empty() && std::find(sets.begin(), sets.end(), allowed) == sets.end()) {
         notes.push_back("of the cell's tools it is carved with " + describe_tools(allowed) + " alone");
     }
     if (const std::string moves = describe(program.moves_left_out); !moves.empty()) notes.push_back(moves);
@@ -265,7 +268,7 @@ void add_findings(const ParsedProgram& program, const ReplayReport& report, JobP
 
 JobProof prove(const ProofInput& input, const Context& context) {
     JobProof proof;
-    proof.notes = notes_of(input.program, input.setup.tools);
+    proof.notes = notes_of(input.program, input.setup.tools, input.cell.machine->tools);
     if (input.program.dialect != Dialect::krl) {
         add(proof, "not_readable", "", 0,
             std::string("programs in the dialect ") + to_word(input.program.dialect) + " cannot be read back yet");
@@ -288,6 +291,7 @@ JobProof prove(const ProofInput& input, const Context& context) {
         if (scene.is_last) check_left_out(scene, input.program, proof);
         if (!scene.is_last) proof.stock_left = to_bytes(report.left);
         proof.deviation = report.deviation;
+        proof.is_given_up = report.leftover.is_given_up;
         proof.time_s = report.time.seconds;
         proof.length_mm = report.time.line_mm;
         add_findings(*program, report, proof);

@@ -31,9 +31,10 @@ struct ProofInput {
     bool is_stated = true;
 };
 
-struct JobProof : ProofResult {    // at most max_listed_findings
-    std::vector<JobChunk> chunks;  // as read back; none if the texts cannot be read
-    std::vector<float> deviation;  // mm, per triangle: positive where foam stays, negative where it is cut into
+struct JobProof : ProofResult {     // at most max_listed_findings
+    std::vector<JobChunk> chunks;   // as read back; none if the texts cannot be read
+    std::vector<float> deviation;   // mm, per triangle: positive where foam stays, negative where it is cut into
+    std::vector<bool> is_given_up;  // per triangle; empty before the last part
     double time_s = 0;
     double length_mm = 0;
     Bytes stock_left;  // stock.bin for the next part, if there is one and the program could be replayed

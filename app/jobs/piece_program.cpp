@@ -284,7 +284,7 @@ void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& m
     if (proof.chunks.size() == input.program.chunks.size()) input.program.chunks = proof.chunks;
     input.program.time_s = proof.time_s;
     input.proof = proof;
-    if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation);
+    if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation, proof.is_given_up);
 }
 
 PiecePrograms programs_with(const ToolpathSettings& settings, const Piece& piece, const PlacedSetup& known,

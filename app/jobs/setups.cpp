@@ -8,8 +8,8 @@
 // (max_by_machine). Else it is cut by the planes that need the fewest blocks no higher than that tool; a piece no
 // longer than the tool is taken as it is, because cutting it further is no remedy. Accepted setups are those of the
 // jobs, so only pieces that are cut further cost more: 0.5 to 3 s for one that is refused. Where the cell has tools of
-// one kind with several stick-outs, that is asked with each set of tools (tool_sets()) until one is good enough, and
-// pieces are cut for the shortest.
+// one kind with several stick-outs, that is asked with each set of tools (tool_sets()) until one is good enough, longer
+// ones are taken where they leave noticeably less out of reach, and pieces are cut for the shortest.
 //
 // Of the bunny at 1.5 m in kr60-ha it made 48 pieces in place of 16, with 1.8 % in place of 22.8 % of the surface out
 // of reach and none that cannot be milled. A largest height in the cell file would be wrong for every convex piece; a
@@ -209,7 +209,8 @@ bool Setups::find_whether_machinable(const Piece& piece) {
     return placed.fits() && is_low_enough(placed.setup());
 }
 
-// With the first set of tools that leaves no more out of reach than may be, or that which leaves least.
+// With the first set of tools that leaves no more out of reach than may be. If none does: with the longer ones of two
+// where they leave less by an area that is noticed.
 UnreachableSurface Setups::sampled_of(const Piece& piece) const {
     SetupOptions options = options_for(piece);
     options.mapped = 0;
@@ -219,7 +220,7 @@ UnreachableSurface Setups::sampled_of(const Piece& piece) const {
     for (const ToolNumbers& tools : tool_sets_for(piece)) {
         const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools), options);
         const UnreachableSurface own = unreachable_surface(choice.setups.front());
-        if (!best || own.share < best->share) best = own;
+        if (!best || own.mm2 + min_gain_mm2() <= best->mm2) best = own;
         if (is_good(choice.setups.front())) break;
     }
     return *best;
@@ -260,6 +261,11 @@ bool Setups::is_good(const Setup& setup) const {
     return !cell_.machine || !setup.access.exceeds(cell_.machine->max_unreachable);
 }
 
+bool Setups::is_worth(const Setup& other, bool other_fits, const Setup& setup, bool fits) const {
+    if (other_fits != fits) return other_fits;
+    return other.access.unreachable_mm2() + min_gain_mm2() <= setup.access.unreachable_mm2();
+}
+
 MappedSetup Setups::mapped_with(const ToolNumbers& tools, const Piece& piece) const {
     const Cell planned = with_tools(cell_, tools);
     return with_stock_fit(choose_setup(piece, planned, options_for(piece)), tools, planned);
@@ -269,12 +275,11 @@ MappedSetup Setups::mapped_with(const ToolNumbers& tools, const Piece& piece) co
 MappedSetup Setups::mapped_of(const Piece& piece) const {
     const std::vector<ToolNumbers> sets = tool_sets_for(piece);
     MappedSetup best = mapped_with(sets.front(), piece);
-    const auto key = [](const MappedSetup& m) {
-        return std::pair(!m.stock_fit.fits(), m.setup().access.unreachable_share());
-    };
     for (std::size_t i = 1; i < sets.size() && !(best.stock_fit.fits() && is_good(best.setup())); ++i) {
         MappedSetup longer = mapped_with(sets[i], piece);
-        if (key(longer) < key(best)) best = std::move(longer);
+        if (is_worth(longer.setup(), longer.stock_fit.fits(), best.setup(), best.stock_fit.fits())) {
+            best = std::move(longer);
+        }
     }
     return best;
 }
@@ -292,12 +297,11 @@ PlacedSetup Setups::placed_with(const MappedSetup& mapped, const Piece& piece, c
 PlacedSetup Setups::placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const {
     if (!cell_.machine) return {mapped, {}};
     PlacedSetup best = placed_with(mapped, piece, context);
-    const auto key = [](const PlacedSetup& p) { return std::pair(!p.fits(), p.setup().access.unreachable_share()); };
     for (const ToolNumbers& tools : tool_sets_for(piece)) {
         if (best.fits() && is_good(best.setup())) break;
         if (tools == mapped.setup().tools) continue;
         PlacedSetup other = placed_with(mapped_with(tools, piece), piece, context);
-        if (key(other) < key(best)) best = std::move(other);
+        if (is_worth(other.setup(), other.fits(), best.setup(), best.fits())) best = std::move(other);
     }
     const auto place = places_.find(piece.name);
     if (place == places_.end() || !best.fits()) return best;

@@ -113,6 +113,9 @@ class Setups {
     // The sets of tools that a piece may be milled with, the shortest first.
     std::vector<ToolNumbers> tool_sets_for(const Piece& piece) const;
     bool is_good(const Setup& setup) const;
+    // Whether other tools are taken in place of those of `setup`: if their block alone fits, or they leave less out of
+    // reach by min_gain_mm2().
+    bool is_worth(const Setup& other, bool other_fits, const Setup& setup, bool fits) const;
     MappedSetup mapped_with(const ToolNumbers& tools, const Piece& piece) const;
     MappedSetup mapped_of(const Piece& piece) const;
     PlacedSetup placed_with(const MappedSetup& mapped, const Piece& piece, const Context& context) const;

@@ -2,10 +2,10 @@
 
 #include "app/pictures/deviation_picture.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <limits>
-#include <vector>
 
 #include "cam/job/sheet/program_section.h"
 #include "segment/picture/two_sides.h"
@@ -45,26 +45,36 @@ std::uint8_t index_of(float value) {
     return i;
 }
 
-std::vector<std::uint8_t> colours_of(std::span<const float> deviation) {
+constexpr std::uint8_t given_up_index = ranges.size();
+constexpr Rgb given_up_colour{255, 205, 30};
+
+std::vector<std::uint8_t> colours_of(std::span<const float> deviation, const std::vector<bool>& is_given_up) {
     std::vector<std::uint8_t> colours;
     colours.reserve(deviation.size());
     for (const float value : deviation) colours.push_back(index_of(value));
+    for (std::size_t t = 0; t < is_given_up.size(); ++t) {
+        if (is_given_up[t]) colours[t] = given_up_index;
+    }
     return colours;
 }
 
 }  // namespace
 
-Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation) {
+Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation,
+                        const std::vector<bool>& is_given_up) {
     assert(deviation.size() == mesh.triangles.size() && !mesh.triangles.empty());
-    std::array<Rgb, ranges.size()> palette;
+    assert(is_given_up.empty() || is_given_up.size() == mesh.triangles.size());
+    std::array<Rgb, ranges.size() + 1> palette;
     for (std::size_t i = 0; i < ranges.size(); ++i) palette[i] = ranges[i].colour;
-    const std::vector<std::uint8_t> colours = colours_of(deviation);
+    palette[given_up_index] = given_up_colour;
+    const std::vector<std::uint8_t> colours = colours_of(deviation, is_given_up);
     ColouredMesh coloured{&mesh, bone_colour, {}};
     coloured.palette = palette;
     coloured.colour_of = colours;
     std::vector<LegendEntry> legend;
     legend.reserve(ranges.size());
     for (const DeviationRange& range : ranges) legend.push_back({range.colour, range.name});
+    if (std::ranges::find(colours, given_up_index) != colours.end()) legend.push_back({given_up_colour, "given up"});
     return draw_two_sides(std::span(&coloured, 1), legend, layout);
 }
 

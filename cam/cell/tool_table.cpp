@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/text.h"
 #include "cam/cell/cell_tables.h"
 
 namespace qchopper {
@@ -83,6 +84,18 @@ void read_windows(const TomlReader& reader, CuttingTool& tool) {
     if (tool.rpm_min != rpm[0] || tool.rpm_max != rpm[1]) reader.refuse("rpm", "must be whole numbers");
 }
 
+// No cut takes more than the whole flute and the whole diameter.
+void read_rate(const TomlReader& reader, CuttingTool& tool) {
+    tool.removal_mm3_per_s = reader.number("removal_mm3_per_s", smallest, 1e9);
+    const double needed = tool.removal_mm3_per_s / (tool.diameter * tool.flute_length);
+    if (needed <= tool.feed_max_mm_per_s) return;
+    reader.refuse("removal_mm3_per_s",
+                  "needs a feed of " + significant(needed, 3) +
+                      " mm/s with the whole flute in the foam, and the largest is " +
+                      significant(tool.feed_max_mm_per_s, 3),
+                  "give what the tool removes where it cuts deepest and widest, or a larger feed");
+}
+
 CuttingTool read_tool_2(const TomlReader& reader) {
     CuttingTool tool;
     tool.number = static_cast<std::uint16_t>(reader.whole("number", 0, 65'535));
@@ -91,7 +104,7 @@ CuttingTool read_tool_2(const TomlReader& reader) {
     read_lengths(reader, tool);
     read_windows(reader, tool);
     tool.mass_kg = reader.number("mass_kg", smallest, 1'000);
-    tool.removal_mm3_per_s = reader.number("removal_mm3_per_s", smallest, 1e9);
+    read_rate(reader, tool);
     tool.is_length_measured = reader.boolean("length_measured");
     return tool;
 }

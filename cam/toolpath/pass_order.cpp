@@ -12,6 +12,58 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t entries_of_closed = 16;
+constexpr int most_rounds = 30;             // of turning stretches about
+constexpr std::size_t most_turned = 1'000;  // passes in a stretch
+constexpr double least_gain = 1e-6;         // mm
+
+double distance(Vec3 a, Vec3 b) {
+    return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+// A pass from its beginning to its end.
+struct Leg {
+    PassEntry entry;
+    Vec3 begin;
+    Vec3 end;
+};
+
+Leg leg_of(std::span<const Pass> passes, PassEntry entry) {
+    const std::vector<PassPoint>& points = passes[entry.pass].points;
+    const std::size_t end = passes[entry.pass].is_closed ? entry.point : points.size() - 1 - entry.point;
+    return {entry, points[entry.point].tip, points[end].tip};
+}
+
+// Turns the legs from `first` to `last` about, each of them too.
+void turn_about(std::vector<Leg>& legs, std::size_t first, std::size_t last, std::span<const Pass> passes) {
+    std::reverse(legs.begin() + static_cast<std::ptrdiff_t>(first),
+                 legs.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    for (std::size_t i = first; i <= last; ++i) {
+        Leg& leg = legs[i];
+        if (passes[leg.entry.pass].is_closed) continue;
+        leg.entry.point = passes[leg.entry.pass].points.size() - 1 - leg.entry.point;
+        std::swap(leg.begin, leg.end);
+    }
+}
+
+// One round over all stretches. Whether any was turned about.
+bool shorten(std::vector<Leg>& legs, Vec3 from, std::span<const Pass> passes) {
+    bool is_shorter = false;
+    for (std::size_t first = 0; first < legs.size(); ++first) {
+        const Vec3 before = first > 0 ? legs[first - 1].end : from;
+        const std::size_t end = std::min(legs.size(), first + most_turned);
+        for (std::size_t last = first; last < end; ++last) {
+            double gain = distance(before, legs[first].begin) - distance(before, legs[last].end);
+            if (last + 1 < legs.size()) {
+                const Vec3 after = legs[last + 1].begin;
+                gain += distance(legs[last].end, after) - distance(legs[first].begin, after);
+            }
+            if (gain < least_gain) continue;
+            turn_about(legs, first, last, passes);
+            is_shorter = true;
+        }
+    }
+    return is_shorter;
+}
 
 }  // namespace
 
@@ -87,6 +139,23 @@ std::optional<PassEntry> PassOrder::take_nearest(Vec3 from) {
     is_taken_[taken.pass] = true;
     --left_;
     return taken;
+}
+
+std::vector<PassEntry> short_order(std::span<const Pass> passes, Vec3 from) {
+    std::vector<Leg> legs;
+    legs.reserve(passes.size());
+    PassOrder nearest(passes);
+    Vec3 at = from;
+    while (const std::optional<PassEntry> entry = nearest.take_nearest(at)) {
+        legs.push_back(leg_of(passes, *entry));
+        at = legs.back().end;
+    }
+    for (int round = 0; round < most_rounds && shorten(legs, from, passes); ++round) {
+    }
+    std::vector<PassEntry> order;
+    order.reserve(legs.size());
+    for (const Leg& leg : legs) order.push_back(leg.entry);
+    return order;
 }
 
 Pass begun_at(const Pass& pass, std::size_t point) {

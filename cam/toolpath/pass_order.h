@@ -1,7 +1,7 @@
 // Passes in an order in which each begins near to where the one before ends.
 //
-// mm, in a plane: heights do not count. Always the nearest one that is left, of equal ones the first
-// (tests/cam/toolpath/passes_and_links_test.cpp).
+// mm, in a plane: heights do not count. Always the nearest one that is left, of equal ones the first; or, where all are
+// known and any order will do, that order improved (tests/cam/toolpath/passes_and_links_test.cpp).
 
 #pragma once
 
@@ -49,6 +49,11 @@ class PassOrder {
     std::ptrdiff_t rows_ = 1;
     std::vector<std::vector<Entry>> squares_;
 };
+
+// All passes from a place on: the nearest first, then stretches of this order turned about as long as that shortens the
+// ways between passes (2-opt: G. A. Croes, "A method for solving traveling-salesman problems", 1958). Never longer than
+// the order of the nearest. O(passes^2) a round for up to 1,000 passes, O(1,000 passes) above; at most 30 rounds.
+std::vector<PassEntry> short_order(std::span<const Pass> passes, Vec3 from);
 
 // The points of a pass from an entry on: an open one reversed if it is begun at its last point, a closed one turned so
 // that it begins and ends there. Precondition: the entry is one of PassOrder.

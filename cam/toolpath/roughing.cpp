@@ -1,12 +1,15 @@
-// Levels are evenly spaced from the highest foam that is to go to the lowest tip. A level's region is where the tip may
-// be at that height (ISO 14649-11, "plane milling strategy" contour-parallel and bidirectional), and of it what lies
-// near foam above the level. O(levels * cells * widest radius / cell) at most.
+// Levels are evenly spaced from the highest foam that is to go to the lowest tip, and between flats of the tip limit,
+// each of which has a level of its own. A level's region is where the tip may be at that height (ISO 14649-11, "plane
+// milling strategy" contour-parallel and bidirectional), and of it what lies near foam above the level. O(levels *
+// cells * widest radius / cell) at most.
 
 #include "cam/toolpath/roughing.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "cam/toolpath/roughing_passes.h"
@@ -17,6 +20,8 @@ namespace {
 
 constexpr double min_foam = 0.2;          // mm above a level that is worth a cut
 constexpr double allowance_share = 0.24;  // by which corners may be passed beside
+constexpr double level_within = 0.05;     // mm
+constexpr double flats_apart = 1;         // mm; finishing takes less
 constexpr double cells_beside = 2.5;      // by which a pass goes on beyond the foam, so that it begins beside it
 
 constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
@@ -31,14 +36,15 @@ class RoughingLevels {
         beside_ = radius - core_radius_ + cells_beside * space.stock.cell;
     }
 
-    // Evenly spaced from the highest foam that is to go, to the lowest tip over such foam; of these, from above, the
-    // ones at which there is anything to mill.
+    // From the highest foam that is to go, to the lowest tip over such foam, evenly spaced between them and the flats;
+    // of these, from above, the ones at which there is anything to mill.
     std::vector<double> heights() {
         const HeightField core = dilate_by_disc(space_.stock, core_radius_);
         const HeightField whole = dilate_by_disc(space_.centre_stock, flute_radius_);
         const HeightField& cl = *space_.cl_limit;
         double top = -std::numeric_limits<double>::infinity();
         double bottom = std::numeric_limits<double>::infinity();
+        std::vector<double> tips;  // over foam that is to go
         for (std::size_t i = 0; i < core.height.size(); ++i) {
             const auto low = static_cast<double>(cl.height[i]);
             const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
@@ -47,14 +53,16 @@ class RoughingLevels {
             deepest_ = std::max(deepest_, static_cast<double>(core.height[i]) - low);
             top = std::max(top, high);
             bottom = std::min(bottom, low);
+            tips.push_back(low);
         }
         if (!(top > bottom)) return {};
-        const double count = std::ceil((top - bottom) / stepdown_ - 1e-6);
-        const double down = (top - bottom) / count;
+        const std::vector<double> levels = spaced(top, flats_of(tips, bottom, top), bottom);
         // Cells that begin to have work at a level, less those that have none from there on.
-        std::vector<std::ptrdiff_t> begins(static_cast<std::size_t>(count) + 2, 0);
+        std::vector<std::ptrdiff_t> begins(levels.size() + 2, 0);
+        // How many levels are not below a height, at least one.
         const auto level_of = [&](double height) {
-            return static_cast<std::size_t>(std::clamp((top - height) / down, 1.0, count + 1));
+            const auto below = std::upper_bound(levels.begin(), levels.end(), height, std::greater<>());
+            return std::max<std::size_t>(1, static_cast<std::size_t>(below - levels.begin()));
         };
         for (std::size_t i = 0; i < core.height.size(); ++i) {
             const double high = std::max(static_cast<double>(core.height[i]) - min_above(),
@@ -66,19 +74,11 @@ class RoughingLevels {
         }
         std::vector<double> heights;
         std::ptrdiff_t cells = 0;
-        for (std::size_t k = 1; static_cast<double>(k) <= count; ++k) {
+        for (std::size_t k = 1; k <= levels.size(); ++k) {
             cells += begins[k];
-            if (cells > 0)
-                heights.push_back(static_cast<double>(k) == count ? bottom : top - static_cast<double>(k) * down);
+            if (cells > 0) heights.push_back(levels[k - 1]);
         }
-        const auto at_once = static_cast<std::size_t>(std::max(1.0, std::floor(options_.deepest / down + 1e-6)));
-        std::vector<double> ordered;
-        for (std::size_t first = 0; first < heights.size(); first += at_once) {
-            const std::size_t end = std::min(heights.size(), first + at_once);
-            ordered.push_back(heights[end - 1]);
-            for (std::size_t k = first; k + 1 < end; ++k) ordered.push_back(heights[k]);
-        }
-        return ordered;
+        return lowest_first(heights, top);
     }
 
     // What heights() found: RoughingRuns::deepest.
@@ -105,6 +105,53 @@ class RoughingLevels {
     }
 
  private:
+    // Heights at which the tip limit is level over at least four times the tool, from above; none near another, the top
+    // or the bottom.
+    std::vector<double> flats_of(std::vector<double> tips, double bottom, double top) const {
+        const double cell_mm2 = space_.stock.cell * space_.stock.cell;
+        const double least = std::numbers::pi * tool_.diameter * tool_.diameter / cell_mm2;
+        std::sort(tips.begin(), tips.end(), std::greater<>());
+        std::vector<double> flats;
+        double above = top;
+        for (std::size_t first = 0, end = 0; first < tips.size();) {
+            const double height = tips[first];
+            while (end < tips.size() && tips[end] > height - level_within) ++end;
+            const bool is_flat = static_cast<double>(end - first) >= least;
+            first = is_flat ? end : first + 1;
+            if (!is_flat || above - height < flats_apart || height - bottom < flats_apart) continue;
+            above = height;
+            flats.push_back(height);
+        }
+        return flats;
+    }
+
+    // No farther apart than a step, the flats and the bottom among them; from above, below the top.
+    std::vector<double> spaced(double top, std::vector<double> flats, double bottom) const {
+        std::vector<double> levels;
+        flats.push_back(bottom);
+        for (const double flat : flats) {
+            const double count = std::ceil((top - flat) / stepdown_ - 1e-6);
+            for (double k = 1; k < count; ++k) levels.push_back(top - k * (top - flat) / count);
+            levels.push_back(flat);
+            top = flat;
+        }
+        return levels;
+    }
+
+    // Of levels that lie within what may be cut at once below the one before, the lowest before the others.
+    std::vector<double> lowest_first(const std::vector<double>& levels, double top) const {
+        std::vector<double> ordered;
+        for (std::size_t first = 0; first < levels.size();) {
+            std::size_t end = first + 1;
+            while (end < levels.size() && top - levels[end] <= options_.deepest + 1e-6) ++end;
+            ordered.push_back(levels[end - 1]);
+            for (std::size_t k = first; k + 1 < end; ++k) ordered.push_back(levels[k]);
+            top = levels[end - 1];
+            first = end;
+        }
+        return ordered;
+    }
+
     // The cells that have foam above a height within a radius.
     static CellMask near_stock(const HeightField& stock, float height, double radius) {
         CellMask above(stock.height.size());

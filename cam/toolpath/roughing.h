@@ -33,10 +33,11 @@ struct RoughingRuns {
 };
 
 // Runs in map coordinates that leave no foam higher than a level's height above the tip limit where the tool comes to
-// it; none where there is nothing to do. The space is that of the direction: its tip limit has the cells of the foam
-// and includes the allowance, foam and removed are lowered. The step, stepdown and the feeds are the operation's. No
-// cut removes foam above the flute, and holder and spindle stay clear of foam at every level: what they keep from is
-// left. Checks for cancellation at each level. O(levels * cells * widest radius / cell).
+// it, and none over flats of the limit that are four times as large as the tool; none where there is nothing to do. The
+// space is that of the direction: its tip limit has the cells of the foam and includes the allowance, foam and removed
+// are lowered. The step, stepdown and the feeds are the operation's. No cut removes foam above the flute, and holder
+// and spindle stay clear of foam at every level: what they keep from is left. Checks for cancellation at each level.
+// O(levels * cells * widest radius / cell).
 RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body, const Operation& operation,
                    const RoughingOptions& options, const Context& context);
 

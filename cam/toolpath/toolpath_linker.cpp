@@ -308,16 +308,25 @@ void ToolpathLinker::add_pass(const Pass& pass) {
 }
 
 void ToolpathLinker::add(const std::vector<Pass>& passes) {
+    if (options_.has_ramps) return add_roughing(passes);
+    for (const PassEntry& entry : short_order(passes, at_)) {
+        const Pass pass = begun_at(passes[entry.pass], entry.point);
+        if (options_.film > 0 && !is_cutting(pass, space_->centre_stock, *tool_, options_.film)) continue;
+        add_pass(pass);
+    }
+}
+
+// Where the tool ends depends on how each pass is begun: the next one is chosen from there.
+void ToolpathLinker::add_roughing(const std::vector<Pass>& passes) {
     PassOrder order(passes);
     while (const std::optional<PassEntry> entry = order.take_nearest(at_)) {
         Pass pass = begun_at(passes[entry->pass], entry->point);
         // An open pass is rather begun beside the foam.
-        if (options_.has_ramps && !pass.is_closed && needs_ramp(pass.points[0].tip)) {
+        if (!pass.is_closed && needs_ramp(pass.points[0].tip)) {
             const Vec3 other = pass.points.back().tip;
             const double more = norm(other - at_) - norm(pass.points[0].tip - at_);
             if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
         }
-        if (options_.film > 0 && !is_cutting(pass, space_->centre_stock, *tool_, options_.film)) continue;
         add_pass(pass);
     }
 }

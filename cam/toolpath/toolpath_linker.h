@@ -61,7 +61,8 @@ class ToolpathLinker {
     // The space, the tool and the operation, whose feeds and rounding are looked at, must outlive it.
     ToolpathLinker(MillingSpace& space, const CuttingTool& tool, const Operation& operation, LinkOptions options);
 
-    // Adds passes, nearest first. O(passes + length of the links / cell * (radius / cell)^2).
+    // Adds passes, of roughing the nearest first, of finishing in short_order(). O(short_order() + length of the links
+    // / cell * (radius / cell)^2).
     void add(const std::vector<Pass>& passes);
 
     // The runs in map coordinates, at most about 650 moves each where a link goes high anyway, never more than 1000.
@@ -75,6 +76,7 @@ class ToolpathLinker {
     // What is known of the corner at the end of a move: nothing; it lies within a pass; the pass has it rounded; all
     // around is clear as far as LinkOptions::clearance.
     enum class Corner : std::uint8_t { joint, inner, rounded, clear };
+    void add_roughing(const std::vector<Pass>& passes);
     void add_pass(const Pass& pass);
     void begin_run(Vec3 at);
     void end_run();

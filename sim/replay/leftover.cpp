@@ -75,7 +75,10 @@ void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const 
         }
         figures.is_reachable[s.triangle] = true;
         figures.reachable_mm2 += s.area;
-        if (given_up[i]) continue;
+        if (given_up[i]) {
+            figures.is_given_up[s.triangle] = true;
+            continue;
+        }
         by_distance.emplace_back(j.distance, s.area);
         if (j.distance <= within.tolerance && within.gouge[s.triangle] <= within.too_deep) {
             figures.within_mm2 += s.area;
@@ -185,6 +188,7 @@ LeftoverFigures measure_leftover(const StockModel& stock_model, const ReplayScen
     figures.not_allowed = areas_of(not_allowed, samples, scene.cell->machine->tools);
     figures.distance.assign(mesh.triangles.size(), 0);
     figures.is_reachable.assign(mesh.triangles.size(), false);
+    figures.is_given_up.assign(mesh.triangles.size(), false);
     add_up(figures, samples, judged, given_up, {tolerance, options.too_deep, gouge});
     return figures;
 }

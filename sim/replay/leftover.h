@@ -3,7 +3,7 @@
 // mm. Distances from points of the target, weighted by triangle area, to the nearest removed point: cells count at
 // their centres, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if a
 // closing of the target by tools of the cell along some direction of the setup comes within the scallop height + 0.75
-// cells of it, whatever the program does: it asks only for what the operator allows (ReplayScene::tools). What keeps
+// cells of it, whatever the program does: it asks only for what the setup allows (ReplayScene::tools). What keeps
 // more foam than the tolerance, and no tool that the program uses along a direction reaches, is given up. The base is
 // left out, other caps are in (tests/sim/replay/ball_test.cpp, tests/sim/replay/given_up_test.cpp).
 
@@ -42,7 +42,7 @@ struct LeftoverFigures {
     double largest = 0;                // on the reachable surface that is not given up
     double percentile_99 = 0;          // of it, by area
     std::vector<GivenUp> given_up;     // by the program: the largest first
-    std::vector<GivenUp> not_allowed;  // with tools that the operator left out: beside the reachable surface
+    std::vector<GivenUp> not_allowed;  // with tools that the setup leaves out: beside the reachable surface
     double given_up_mm2() const { return sum_of(given_up); }
     double not_allowed_mm2() const { return sum_of(not_allowed); }
     static double sum_of(const std::vector<GivenUp>& surface);
@@ -50,6 +50,7 @@ struct LeftoverFigures {
     Vec3 at;                         // where the largest is
     std::vector<float> distance;     // per triangle, the largest of its points; 0 of the base
     std::vector<bool> is_reachable;  // per triangle: one of its points is
+    std::vector<bool> is_given_up;   // likewise
 };
 
 // `gouge` is GougeFigures::depth. Throws Cancelled.

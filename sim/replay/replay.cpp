@@ -28,7 +28,7 @@ void check_scene(const ReplayScene& scene) {
         return std::ranges::count(scene.cell->machine->tools, number, &CuttingTool::number) > 0;
     };
     for (const std::uint16_t number : scene.tools) {
-        demand(has_tool(number), "a tool that the operator allows is not in the cell file");
+        demand(has_tool(number), "a tool of the setup is not in the cell file");
     }
     for (const SceneChunk& chunk : scene.chunks) {
         demand(has_tool(chunk.tool), "a tool of the job is not in the cell file");

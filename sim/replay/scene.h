@@ -1,5 +1,5 @@
 // What a replay is told beside the program: the cell, the block, the piece, what the job says of each chunk, and which
-// tools the operator allows.
+// tools the setup may use.
 //
 // mm, radians, setup coordinates unless stated (z up, the piece's base plane at z = 0, the underside of the block at
 // z = -spoil). Everything else comes from the program's text.
@@ -71,7 +71,7 @@ struct ReplayScene {
     const StockRecord* before = nullptr;
     bool is_last = true;
     std::vector<SceneHole> holes = {};  // all of the piece
-    // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
+    // Numbers of the tools that the setup may use; empty: all of the cell.
     std::vector<std::uint16_t> tools = {};
 
     // Below it no tool point may be: 2 mm of the spoil layer stay whole.

@@ -18,8 +18,8 @@ class Plant(unittest.TestCase):
     def test_every_line_of_the_table_is_found_exactly_once(self):
         self.assertEqual(list(plant.unplantable(ROOT, plant.FAULTS)), [])
 
-    def test_twenty_faults_are_of_all_modules_and_name_programs_that_are_built(self):
-        self.assertEqual(len(plant.FAULTS), 20)
+    def test_faults_are_of_all_modules_and_name_programs_that_are_built(self):
+        self.assertEqual(len({fault.what for fault in plant.FAULTS}), len(plant.FAULTS))
         self.assertEqual({fault.file.split("/")[0] for fault in plant.FAULTS}, set(MODULES))
         for fault in plant.FAULTS:
             folder, _, name = fault.program.rpartition("/")

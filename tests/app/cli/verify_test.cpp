@@ -203,7 +203,10 @@ TEST_F(VerifyCommand, AJobWithAnotherPieceThanTheProjectIsNamed) {
 TEST_F(VerifyCommand, ASetupOtherThanThatOfTheProjectIsNamed) {
     copy_project();
     const std::string order = "\"tools\": [\n      1,\n      3,\n      4,\n      8\n    ]";
-    change_manifest(job, "\"setup\": {", "\"tools\": null", order);
+    // Of each kind of tool the shortest, which is no order.
+    const std::string chosen =
+        "\"tools\": [\n      1,\n      2,\n      3,\n      4,\n      5,\n      6,\n      7,\n      8\n    ]";
+    change_manifest(job, "\"setup\": {", chosen, order);
     const Ended alone = run({"verify", job.string()});
     EXPECT_EQ(alone.code, 0) << alone.err << alone.out;
     EXPECT_TRUE(has(alone.out, "Note: of the cell's tools it is carved with tools 1, 3, 4 and 8 alone.")) << alone.out;
@@ -226,7 +229,7 @@ TEST_F(VerifyCommand, ToolsThatAreOrderedStandInProjectAndJob) {
     EXPECT_TRUE(document["program"]["verdicts"][0]["figures"].contains("not_allowed_percent"));
     EXPECT_TRUE(has(made.err, "with tools 2 and 4 alone")) << made.err;
     EXPECT_EQ(run({"verify", "p.qch"}).code, 0) << "the project knows the order";
-    EXPECT_EQ(run({"setup", "p.qch", "--piece", "A", "--tools", "4,9"}).code, exit_use);
+    EXPECT_EQ(run({"setup", "p.qch", "--piece", "A", "--tools", "4,99"}).code, exit_use);
     EXPECT_EQ(run({"setup", "p.qch", "--tools", "4"}).code, exit_use) << "of which piece?";
     EXPECT_EQ(run({"prepare", "p.qch", "--tools", "4"}).code, exit_use) << "belongs to a new project";
 }

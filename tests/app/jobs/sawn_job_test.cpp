@@ -19,6 +19,7 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/search/segmentation.h"
 #include "tests/app/jobs/proven_job.h"
+#include "tests/segment/objectives/extruded.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -205,6 +206,30 @@ TEST(SawnJobs, EachLieAboutTheBlockIsRefused) {
         EXPECT_TRUE(kinds.contains("flush_face") || kinds.contains("gouge")) << lie.name << ": " << joined(kinds);
         std::printf("%s: %s; proof: %s\n", lie.name.c_str(), by_reading.c_str(), joined(kinds).c_str());
     }
+}
+
+// Flat skin that goes on where a sawn cap ends, in its plane, is no glue face: it is skin to be proven, and the face of
+// the block has it already. Fails if all of a face's triangles are taken for its cap.
+TEST(SawnJobs, FlatSkinInThePlaneOfASawnCapIsSkin) {
+    constexpr double height = 24;
+    constexpr double width = 40;
+    // Seen along y: a foot, and on it half a step back a wall, whose side at x = 0 is skin.
+    Piece piece =
+        uncut(extruded({{-30, -10}, {30, -10}, {30, height}, {0, height}, {0, height - 14}, {-30, height - 18}}, 0,
+                       width),
+              0)
+            .pieces.front();
+    piece = cut_piece(piece, {{0, 0, 1}, 0}, base_cut)->pieces.front();
+    piece = cut_piece(piece, {{1, 0, 0}, 0}, sawn_cut)->pieces.front();
+    piece.name = "A";
+    const ProvenJob proven = made_and_proven("kr60-ha", piece);
+    EXPECT_TRUE(proven.verdict.is_positive) << describe(proven.verdict.findings.front());
+    const auto& setup = proven.job.setup;
+    EXPECT_EQ(setup.base, base_cut);
+    ASSERT_EQ(setup.flush_caps.size(), 1U);
+    EXPECT_EQ(setup.flush_caps[0].cut, sawn_cut);
+    EXPECT_NEAR(setup.flush_caps[0].area_mm2, width * (height - 14), 0.01 * width * height);
+    EXPECT_EQ(setup.milled_caps_mm2, 0);
 }
 
 // The lines of a chunk with a pass beside the sawn face, `beside` its radius away from it, along its foot.

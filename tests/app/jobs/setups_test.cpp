@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "cam/setup/blocks_needed.h"
 #include "segment/mesh/measure.h"
+#include "tests/cam/cell/short_tools.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper {
@@ -58,14 +59,14 @@ TEST(Setups, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeMilled) {
 }
 
 TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeMilled) {
-    Setups setups(cell_named("kr60-ha"));
+    Setups setups(with_short_tools(cell_named("kr60-ha")));
     const Piece pillar = test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1);
     EXPECT_GT(220, low_piece_height(setups.cell()));
     EXPECT_TRUE(setups.is_machinable(pillar));
 }
 
 TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
-    Setups setups(cell_named("kr60-ha"));
+    Setups setups(with_short_tools(cell_named("kr60-ha")));
     const Piece high = frame(120);
     const auto with_all = setups.mapped(high).setup();
     EXPECT_TRUE(with_all.tools.empty());
@@ -81,7 +82,7 @@ TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
 
 // A workshop that buys a longer tool of a kind keeps what it could mill before, and mills more.
 TEST(Setups, TakeTheShorterOfTwoToolsOfAKindUnlessThatReachesTooLittle) {
-    Cell cell = cell_named("kr120-r2500-pro-rotary");
+    Cell cell = with_short_tools(cell_named("kr120-r2500-pro-rotary"));
     for (const std::size_t of : {std::size_t{0}, std::size_t{7}}) {
         CuttingTool longer = cell.machine->tools[of];
         longer.number = static_cast<std::uint16_t>(9 + of);
@@ -95,7 +96,7 @@ TEST(Setups, TakeTheShorterOfTwoToolsOfAKindUnlessThatReachesTooLittle) {
     const PlacedSetup& deep = setups.placed(frame(270));
     EXPECT_EQ(deep.setup().tools, longest) << "its shaft is deeper than 150";
     EXPECT_TRUE(deep.fits());
-    Setups without(cell_named("kr120-r2500-pro-rotary"));
+    Setups without(with_short_tools(cell_named("kr120-r2500-pro-rotary")));
     EXPECT_LT(deep.setup().access.holder_mm2 + 1e4, without.placed(frame(270)).setup().access.holder_mm2);
     EXPECT_TRUE(setups.placed(frame(100)).setup().access == without.placed(frame(100)).setup().access);
 }

@@ -42,6 +42,18 @@ TEST(DeviationPicture, BothSidesAreShown) {
     }
 }
 
+TEST(DeviationPicture, WhatIsGivenUpHasAColourOfItsOwnAndStandsInTheLegendIfThereIsAny) {
+    const std::size_t count = piece().triangles.size();
+    const std::vector<float> values(count, 1);
+    const Bytes none = deviation_picture(piece(), values, std::vector<bool>(count, false));
+    EXPECT_EQ(none, deviation_picture(piece(), values));
+    std::vector<bool> one(count, false);
+    one[3] = true;
+    const Bytes some = deviation_picture(piece(), values, one);
+    EXPECT_NE(some, none);
+    EXPECT_NE(some, deviation_picture(piece(), values, std::vector<bool>(count, true)));
+}
+
 TEST(DeviationPicture, SameBytesWhateverTheNumberOfThreads) {
     std::vector<float> values;
     for (std::size_t t = 0; t < piece().triangles.size(); ++t) values.push_back(0.3F * static_cast<float>(t) - 2);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "tests/cam/cell/short_tools.h"
 
 namespace qchopper {
 namespace {
@@ -32,11 +33,11 @@ TEST(AllowedTools, AreThoseThatAreNamedInTheOrderOfTheCell) {
     EXPECT_EQ(some.machine->tools[1], cell.machine->tools[3]);
     EXPECT_EQ(some.tool.number, 3) << "the tool that jobs without a program name";
     EXPECT_EQ(some.tool.diameter, 12);
-    EXPECT_EQ(with_tools(cell, {1, 2, 3, 4, 5, 6, 7, 8}), cell);
+    EXPECT_EQ(with_tools(cell, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}), cell);
 }
 
 TEST(AllowedTools, ThatCannotCarveAreRefused) {
-    EXPECT_NE(refusal(ready("kr60-ha"), {1, 9}).find("no tool 9"), std::string::npos);
+    EXPECT_NE(refusal(ready("kr60-ha"), {1, 99}).find("no tool 99"), std::string::npos);
     EXPECT_NE(refusal(ready("kr60-ha"), {2, 5}).find("none is ball-ended"), std::string::npos);
     EXPECT_NE(refusal(ready("foam-1"), {1}).find("no machine"), std::string::npos);
     EXPECT_EQ(describe_tools({4}), "tool 4");
@@ -44,13 +45,18 @@ TEST(AllowedTools, ThatCannotCarveAreRefused) {
 }
 
 TEST(ToolSets, AreOneWhereNoKindHasSeveralStickOuts) {
-    EXPECT_EQ(tool_sets(ready("kr60-ha").machine->tools), (std::vector<std::vector<std::uint16_t>>{{}}));
+    EXPECT_EQ(tool_sets(ready("gantry-3axis").machine->tools), (std::vector<std::vector<std::uint16_t>>{{}}));
     std::vector<CuttingTool> twins(2);
     EXPECT_EQ(tool_sets(twins).size(), 1U) << "of equal tools there is no longer one";
 }
 
+TEST(ToolSets, OfReadyCellsAreShortAndLongOnes) {
+    EXPECT_EQ(tool_sets(ready("kr60-ha").machine->tools),
+              (std::vector<std::vector<std::uint16_t>>{{1, 2, 3, 4, 5, 6, 7, 8}, {2, 3, 4, 5, 6, 7, 9, 10}}));
+}
+
 TEST(ToolSets, HaveOneStickOutOfEveryKind) {
-    Cell cell = ready("kr60-ha");
+    Cell cell = with_short_tools(ready("kr60-ha"));
     std::vector<CuttingTool>& tools = cell.machine->tools;
     for (const auto& [of, number, stick_out] :
          {std::tuple(0, 9, 300.0), std::tuple(0, 10, 200.0), std::tuple(7, 11, 300.0)}) {

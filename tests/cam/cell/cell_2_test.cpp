@@ -68,7 +68,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     ProgramSettings program;
     program.link_feed_mm_per_s = 300;
     EXPECT_EQ(machine.program, program);
-    ASSERT_EQ(machine.tools.size(), 8U);
+    ASSERT_EQ(machine.tools.size(), 10U);
     CuttingTool tool;
     tool.number = 4;
     tool.name = "ball nose 6 mm";
@@ -292,6 +292,8 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
         {"flute_length = 100.0", "flute_length = 0.0", "flute_length = 0", "tool.flute_length", "out of bounds"},
         {"removal_mm3_per_s = 24000.0", "removal_mm3_per_s = 0.0", "removal_mm3_per_s = 0", "tool.removal_mm3_per_s",
          "out of bounds"},
+        {"removal_mm3_per_s = 24000.0", "removal_mm3_per_s = 400000.0", "removal_mm3_per_s = 4",
+         "tool.removal_mm3_per_s", "needs a feed of 200 mm/s with the whole flute in the foam, and the largest is 150"},
         {"holder = [[40.0, 50.0]]", "holder = [[19.0, 50.0]]", "holder = [[19", "tool.holder", "narrower"},
         {"holder = [[40.0, 50.0]]", "holder = [40.0, 50.0]", "holder = [40", "tool.holder", "two numbers"},
         {"holder = [[40.0, 50.0]]", "holder = []", "holder = []", "tool.holder", "at least one"},

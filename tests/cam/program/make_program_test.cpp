@@ -328,7 +328,7 @@ TEST(MakeProgram, RefusesBadToolpathsByName) {
         has(refusal([](Toolpath& t) { t.operations[1].runs.clear(); }), "operation 2 of the toolpath: has no runs"),
         "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].runs[1].moves.clear(); }), "run 2: has no moves"), "");
-    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].tool = 9; }), "tool is not in the cell file"), "");
+    EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].tool = 99; }), "tool is not in the cell file"), "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].orientation = 7; }), "orientation is not of the setup"),
               "");
     EXPECT_EQ(has(refusal([](Toolpath& t) { t.operations[0].feed = 900; }), "feed 900"), "");

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "tests/cam/cell/short_tools.h"
 #include "tests/cam/toolpath/plain_replay.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
@@ -25,7 +26,7 @@ using test_pieces::PlainReplay;
 using test_pieces::setup_of;
 
 Cell ready_cell(const std::string& name = "kr60-ha.toml") {
-    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name);
+    return with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name));
 }
 
 ToolpathSettings coarse_settings() {
@@ -69,6 +70,31 @@ TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
         if (is_far || beside.z > first.allowance + first.stepdown) ++left;
     }
     EXPECT_EQ(left, 0U);
+}
+
+// Levels that are evenly spaced would leave up to the height of one on it, which finishing would have to cut.
+TEST(MakeToolpath, RoughingLeavesTheAllowanceAloneOnALargeFlat) {
+    constexpr double half = 80;
+    constexpr double high = 45;
+    const auto setup = setup_of(shapes::box({-half, -half, 0}, {half, half, high}), 18);
+    const TriangleMesh mesh = shapes::box({-half, -half, 0}, {half, half, high});
+    const Cell cell = ready_cell();
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    const Operation& first = path.operations.front();
+    ASSERT_EQ(first.kind, OperationKind::roughing);
+    PlainReplay replay(setup, cell, 2.5);
+    replay.mill(first);
+    expect_clean(replay, "flat");
+    std::size_t above = 0;
+    for (std::size_t i = 0; i < replay.points().size(); ++i) {
+        const Vec3 p = replay.points()[i];
+        if (std::max(std::abs(p.x), std::abs(p.y)) > half || p.z <= high) continue;
+        ++above;
+        const double over = p.z - high - first.allowance;
+        if (over > -0.3 && over < 0.5) continue;
+        EXPECT_EQ(replay.is_stock(i), over < 0) << p.x << " " << p.y << " " << p.z;
+    }
+    EXPECT_GT(above, 1000U);
 }
 
 TEST(MakeToolpath, AToolWithLessFeedGoesTheSameWay) {

@@ -80,17 +80,101 @@ TEST(RoughingPasses, StayInTheRegionAndReachAllOfIt) {
     }
 }
 
-TEST(PassOrder, TakesEachOnceAndAlwaysTheNearest) {
-    std::mt19937 random(3);
+// Every fourth is closed.
+std::vector<Pass> random_passes(int count, double length, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 100);
+    std::uniform_real_distribution<double> step(-length, length);
     std::vector<Pass> passes;
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < count; ++i) {
         Pass pass;
-        for (int k = 0; k < 3; ++k) pass.points.push_back({{unit(random), 0.3 * unit(random), 0}, false});
+        pass.points.push_back({{unit(random), 0.3 * unit(random), 0}, false});
+        for (int k = 0; k < 2; ++k) {
+            const Vec3 last = pass.points.back().tip;
+            pass.points.push_back({last + Vec3{step(random), step(random), 0}, false});
+        }
         pass.is_closed = i % 4 == 0;
         if (pass.is_closed) pass.points.push_back(pass.points.front());
         passes.push_back(pass);
     }
+    return passes;
+}
+
+// Of the ways to passes and between them.
+double length_of_ways(std::span<const Pass> passes, std::span<const PassEntry> order, Vec3 from) {
+    double length = 0;
+    for (const PassEntry& entry : order) {
+        const Pass begun = begun_at(passes[entry.pass], entry.point);
+        const Vec3 to = begun.points.front().tip;
+        length += std::hypot(to.x - from.x, to.y - from.y);
+        from = begun.points.back().tip;
+    }
+    return length;
+}
+
+std::vector<PassEntry> nearest_order(std::span<const Pass> passes, Vec3 at) {
+    std::vector<PassEntry> entries;
+    PassOrder order(passes);
+    while (const auto entry = order.take_nearest(at)) {
+        entries.push_back(*entry);
+        at = begun_at(passes[entry->pass], entry->point).points.back().tip;
+    }
+    return entries;
+}
+
+TEST(ShortOrder, HasEachPassOnceAndShorterWaysThanTheNearest) {
+    std::mt19937 random(5);
+    const Vec3 from{-40, 90, 5};
+    for (const int count : {0, 1, 2, 40, 300}) {
+        const std::vector<Pass> passes = random_passes(count, 8, random);
+        const std::vector<PassEntry> order = short_order(passes, from);
+        std::set<std::size_t> left;
+        for (std::size_t i = 0; i < passes.size(); ++i) left.insert(i);
+        for (const PassEntry& entry : order) {
+            EXPECT_EQ(left.erase(entry.pass), 1U);
+            const std::size_t last = passes[entry.pass].points.size() - 1;
+            EXPECT_TRUE(passes[entry.pass].is_closed ? entry.point < last : entry.point == 0 || entry.point == last);
+        }
+        EXPECT_TRUE(left.empty());
+        const double shorter = length_of_ways(passes, order, from);
+        const double nearest = length_of_ways(passes, nearest_order(passes, from), from);
+        EXPECT_LE(shorter, nearest + 1e-9);
+        if (count >= 40) {
+            EXPECT_LT(shorter, 0.95 * nearest) << count;
+        }
+        std::printf("%d passes: ways of %.0f mm, nearest first %.0f\n", count, shorter, nearest);
+    }
+}
+
+TEST(ShortOrder, OfFewPassesIsNearlyTheShortestOfAll) {
+    std::mt19937 random(6);
+    const Vec3 from{0, 0, 0};
+    double all_shortest = 0;
+    double all_found = 0;
+    for (int seed = 0; seed < 20; ++seed) {
+        std::vector<Pass> passes = random_passes(5, 30, random);
+        for (Pass& pass : passes) pass.is_closed = false;
+        double shortest = 1e9;
+        std::vector<std::size_t> turn{0, 1, 2, 3, 4};
+        do {
+            for (unsigned ends = 0; ends < 32; ++ends) {
+                std::vector<PassEntry> order;
+                for (const std::size_t pass : turn) {
+                    order.push_back({pass, (ends >> pass & 1U) != 0 ? passes[pass].points.size() - 1 : 0});
+                }
+                shortest = std::min(shortest, length_of_ways(passes, order, from));
+            }
+        } while (std::next_permutation(turn.begin(), turn.end()));
+        const double found = length_of_ways(passes, short_order(passes, from), from);
+        EXPECT_GE(found, shortest - 1e-9);
+        all_shortest += shortest;
+        all_found += found;
+    }
+    EXPECT_LT(all_found, 1.1 * all_shortest);
+}
+
+TEST(PassOrder, TakesEachOnceAndAlwaysTheNearest) {
+    std::mt19937 random(3);
+    std::vector<Pass> passes = random_passes(80, 40, random);
     PassOrder order(passes);
     std::set<std::size_t> left;
     for (std::size_t i = 0; i < passes.size(); ++i) left.insert(i);

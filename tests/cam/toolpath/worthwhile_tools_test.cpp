@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "tests/cam/cell/short_tools.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -19,7 +20,7 @@ using Tools = std::vector<std::size_t>;
 
 // Balls of 20, 12 and 6 mm are its tools 0, 2 and 3.
 Cell kr60() {
-    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    return with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml"));
 }
 
 Tools chosen(const TriangleMesh& mesh, FineTools fine) {

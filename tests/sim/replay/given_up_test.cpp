@@ -11,6 +11,7 @@
 
 #include "sim/replay/leftover.h"
 #include "sim/replay/reach/reachable.h"
+#include "tests/cam/cell/short_tools.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -88,6 +89,11 @@ TEST(GivenUp, IsWhatTheFinestToolOfTheCellReachesAndTheProgramDoesNotUse) {
     EXPECT_NEAR(left.given_up_mm2(), bar.groove_mm2(), 0.2 * bar.groove_mm2());
     EXPECT_NEAR(left.within_mm2, left.reachable_mm2 - left.given_up_mm2(), 0.005 * left.area_mm2);
     EXPECT_TRUE(left.not_allowed.empty());
+    double marked_mm2 = 0;
+    for (std::size_t t = 0; t < left.is_given_up.size(); ++t) {
+        if (left.is_given_up[t]) marked_mm2 += norm(area_vector(bar.target, t));
+    }
+    EXPECT_GE(marked_mm2, left.given_up_mm2()) << "whole triangles";
 }
 
 TEST(GivenUp, IsNothingWhereTheToolIsUsedOrTheSurfaceIsMilled) {
@@ -131,7 +137,8 @@ TEST(GivenUp, ADirectionOfTheSetupThatTheProgramDoesNotTake) {
 
 // Balls on a plate beside a wall, against all closings of all ball-ended tools.
 void expect_few_are_enough(double wall, std::size_t expected) {
-    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    const Cell cell =
+        with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml"));
     std::vector<TriangleMesh> meshes{shapes::box({0, 0, 0}, {60, 60, 5}), shapes::box({-12, 0, 0}, {0, 60, wall})};
     std::mt19937 random(7);
     std::uniform_real_distribution<double> at(5, 55);
@@ -160,7 +167,8 @@ void expect_few_are_enough(double wall, std::size_t expected) {
 
 // Points all over a plate with balls beside a high wall: each is asked of the closings one after the other.
 TEST(FirstReach, IsTheFirstClosingThatComesToAPoint) {
-    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    const Cell cell =
+        with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml"));
     std::vector<TriangleMesh> meshes{shapes::box({0, 0, 0}, {60, 60, 5}), shapes::box({-12, 0, 0}, {0, 60, 190})};
     for (const double x : {12.0, 35.0, 50.0}) meshes.push_back(shapes::ball({x, x, 6}, 7, 10));
     const TriangleMesh mesh = shapes::joined(meshes);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "tests/cam/cell/short_tools.h"
 #include "tests/cam/setup/random_setups.h"
 
 namespace qchopper {
@@ -19,7 +20,7 @@ using test_setups::BoxSetup;
 using test_setups::tool_axis;
 
 Cell ready_cell(const std::string& name) {
-    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name);
+    return with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name));
 }
 
 std::size_t count(const OrientationPoses& orientation, PoseKind kind) {

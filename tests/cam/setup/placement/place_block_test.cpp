@@ -13,6 +13,7 @@
 #include "cam/cell/reach_map.h"
 #include "cam/setup/holder_clearance.h"
 #include "cam/setup/placement/place_score.h"
+#include "tests/cam/cell/short_tools.h"
 #include "tests/cam/setup/random_setups.h"
 #include "tests/reference/cam/setup/holds_at_placement.h"
 
@@ -27,7 +28,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr Vec3 up{0, 0, 1};
 
 Cell ready_cell(const std::string& name) {
-    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name);
+    return with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name));
 }
 
 Cell kr60() {
