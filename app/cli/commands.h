@@ -8,6 +8,7 @@
 
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/terminal.h"
+#include "app/engine/open_project.h"
 #include "app/report/cell/dispatch_report.h"
 
 namespace qchopper {
@@ -25,6 +26,7 @@ int run(const CellsCheckArguments& arguments, Terminal& terminal);
 int run(const CellsReachArguments& arguments, Terminal& terminal);
 int run(const SetupArguments& arguments, Terminal& terminal);
 int run(const WorkArguments& arguments, Terminal& terminal);
+int run(const GatherArguments& arguments, Terminal& terminal);
 int run(const VerifyArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
@@ -32,6 +34,9 @@ int run(const DispatchArguments& arguments, Terminal& terminal);
 int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
 int run(const SchemaArguments& arguments, Terminal& terminal);
+
+// For prepare and gather: shows table or document and returns the exit code.
+int show(const PreparedProject& prepared, Terminal& terminal);
 
 // For dry-run and dispatch: shows table or document and returns the exit code.
 int show(const DispatchReport& report, const std::string& schema, Terminal& terminal);

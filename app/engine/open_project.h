@@ -31,6 +31,7 @@ struct PreparedProject {
     double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
     std::vector<PieceReport> pieces;  // in the order of the project's
     ProjectJoints joints = {};        // of them
+    std::size_t items = 0;            // written for other processes to work on (work_project.h)
     bool all_fit() const;
     // Whether jobs of this cell hold programs, and programs were asked for.
     bool has_programs() const;

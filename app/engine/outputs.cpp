@@ -92,6 +92,8 @@ void remove_outputs(const fs::path& folder, Project& project) {
     }
     for (const char* name : {"pieces", "jobs", "pictures"}) remove_but(folder / name, {});
     remove_sheets(folder);
+    std::error_code error;
+    fs::remove_all(folder / "work", error);  // items of pieces that are decided about again (work_project.h)
 }
 
 }  // namespace qchopper

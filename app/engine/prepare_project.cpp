@@ -3,6 +3,7 @@
 #include "app/engine/prepare_project.h"
 
 #include "app/engine/loop.h"
+#include "app/engine/work_project.h"
 #include "app/store/project_lines.h"
 #include "base/error.h"
 #include "base/printable.h"
@@ -41,7 +42,9 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
     LoopOptions loop;
     loop.program_version = options.program_version;
     if (options.time_limit_s) loop.time_limit.emplace(TimeLimit{*options.time_limit_s});
-    return *run_loop(project, loop, observer, context).prepared;
+    PreparedProject prepared = *run_loop(project, loop, observer, context).prepared;
+    if (options.has_items) prepared.items = write_items(project, options.program_version, context);
+    return prepared;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Opens the project, which cuts the scan again, and sets up the pieces of the shard alone. The cost is that of their
-// programs.
+// Items are read one by one, and each again when its turn comes: of a project of 50 pieces they have some 100 MB. The
+// cost is that of their programs.
 
 #include "app/engine/work_project.h"
 
@@ -9,86 +9,154 @@
 #include <numeric>
 
 #include "app/engine/open_project.h"
+#include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "base/shared_progress.h"
-#include "segment/mesh/measure.h"
+#include "segment/joint/piece_joints.h"
 
 namespace qchopper {
 namespace {
 
-double box_area(const Piece& piece) {
-    const Vec3 size = bounds(*piece.mesh).size();
-    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+namespace fs = std::filesystem;
+
+fs::path items_folder(const fs::path& project) {
+    return project / "work" / "items";
 }
 
-void check(const Project& project, const std::filesystem::path& folder, const Cell& cell) {
-    const std::string prepare = "qchopper prepare " + shell_word(folder) + " --no-programs";
-    if (project.stage != Stage::done) {
-        throw InputError(InputFault::use, folder.string() + " is not finished: its cuts may change", prepare);
+fs::path results_of(const fs::path& item) {
+    return item.parent_path().parent_path() / "results";
+}
+
+// By name.
+std::vector<fs::path> items_in(const fs::path& project) {
+    std::vector<fs::path> items;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(items_folder(project), error)) {
+        if (entry.path().extension() == item_ending) items.push_back(entry.path());
     }
-    const std::string because = no_programs_for(cell);
-    if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
+    if (items.empty()) {
+        throw InputError(InputFault::missing, project.string() + " has no items to work on",
+                         "qchopper prepare " + shell_word(project) + " --items");
+    }
+    std::sort(items.begin(), items.end());
+    return items;
+}
+
+std::vector<fs::path> items_of_inputs(const std::vector<fs::path>& inputs) {
+    std::vector<fs::path> items;
+    for (const fs::path& input : inputs) {
+        if (input.extension() == item_ending) {
+            items.push_back(input);
+            continue;
+        }
+        const std::vector<fs::path> own = items_in(input);
+        items.insert(items.end(), own.begin(), own.end());
+    }
+    return items;
 }
 
 }  // namespace
 
-std::vector<std::size_t> pieces_of(const Shard& shard, std::span<const Piece> pieces) {
-    std::vector<double> areas;
-    areas.reserve(pieces.size());
-    for (const Piece& piece : pieces) areas.push_back(box_area(piece));
-    std::vector<std::size_t> order(pieces.size());
+std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> efforts) {
+    std::vector<std::size_t> order(efforts.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return efforts[a] > efforts[b]; });
     std::vector<double> loads(shard.count, 0);
     std::vector<std::size_t> own;
-    for (const std::size_t piece : order) {
+    for (const std::size_t item : order) {
         const auto least = std::min_element(loads.begin(), loads.end());
-        *least += areas[piece];
-        if (static_cast<std::size_t>(least - loads.begin()) == shard.number) own.push_back(piece);
+        *least += efforts[item];
+        if (static_cast<std::size_t>(least - loads.begin()) == shard.number) own.push_back(item);
     }
     return own;
 }
 
-WorkAnswer work_project(const std::filesystem::path& folder, const Shard& shard, const std::string& program_version,
-                        const std::function<void(const WorkedPiece&)>& on_piece, const ProjectContext& context) {
-    OpenProject open(folder, context);
-    open.check_cell();
-    check(open.project(), folder, open.setups()->cell());
-    context.saved("The project is unchanged; programs that are made are kept, and the same command makes the rest.");
-    const Segmentation& segmentation = open.segmentation();
-    const std::vector<std::size_t> own = pieces_of(shard, segmentation.pieces);
-    const std::vector<PieceJoint> joints =
-        piece_joints(segmentation.pieces, joint_settings(&open.setups()->cell()), context);
-    std::vector<Piece> pieces;
-    pieces.reserve(own.size());
-    for (const std::size_t piece : own) pieces.push_back(segmentation.pieces[piece]);
-    open.setups()->place(pieces, context);
-    std::vector<WorkedPiece> worked(own.size());
+std::size_t write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context) {
+    const Cell& cell = project.setups()->cell();
+    const std::string because = no_programs_for(cell);
+    if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
+    const Segmentation& segmentation = project.segmentation();
+    const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell), context);
+    fs::remove_all(project.folder() / "work");
+    fs::create_directories(items_folder(project.folder()));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
+        context.check_cancelled();
+        context.progress("items written", i, segmentation.pieces.size());
+        const std::optional<WorkItem> item =
+            item_of(project.folder(), project.project(), segmentation, i, *project.setups(), joints, program_version);
+        if (!item) continue;
+        write_item(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), *item);
+        ++count;
+    }
+    return count;
+}
+
+WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, const std::string& program_version,
+                      const std::function<void(const WorkedPiece&)>& on_piece, const ProjectContext& context) {
+    const std::vector<fs::path> items = items_of_inputs(inputs);
+    std::vector<double> efforts;
+    efforts.reserve(items.size());
+    for (const fs::path& item : items) efforts.push_back(read_item(item, program_version).effort);
+    const std::vector<std::size_t> own = items_of(shard, efforts);
+    context.saved("Programs that are made are kept, and the same command makes the rest.");
+    WorkAnswer answer{inputs.front().extension() == item_ending ? fs::path() : inputs.front(), shard, items.size(), {}};
+    answer.pieces.resize(own.size());
     SharedProgress progress(context, "programs made", own.size());
     std::mutex telling;
     std::atomic<std::size_t> next = 0;
     parallel_for(0, own.size(), [&](std::size_t) {  // the largest first, whatever the order of the loop
         context.check_cancelled();
         const std::size_t k = next++;
+        const fs::path& file = items[own[k]];
         Context quiet;
         quiet.cancelled = context.cancelled;
-        worked[k] = keep_programs_of(folder, open.project(), segmentation, own[k], *open.setups(), joints,
-                                     program_version, quiet);
+        quiet.on_message = [&](const std::string& text) {
+            const std::lock_guard lock(telling);
+            context.message(text);
+        };
+        answer.pieces[k] = work_on(read_item(file, program_version), results_of(file), quiet);
         {
             const std::lock_guard lock(telling);
-            if (on_piece) on_piece(worked[k]);
+            if (on_piece) on_piece(answer.pieces[k]);
         }
         progress.add(1);
     });
-    std::vector<std::size_t> by_index(own.size());
-    std::iota(by_index.begin(), by_index.end(), std::size_t{0});
-    std::sort(by_index.begin(), by_index.end(), [&](std::size_t a, std::size_t b) { return own[a] < own[b]; });
-    WorkAnswer answer{folder, shard, segmentation.pieces.size(), {}};
-    for (const std::size_t k : by_index) answer.pieces.push_back(std::move(worked[k]));
+    std::sort(answer.pieces.begin(), answer.pieces.end(),
+              [](const WorkedPiece& a, const WorkedPiece& b) { return a.name < b.name; });
     return answer;
+}
+
+WorkAnswer work_done(const fs::path& folder, const std::string& program_version) {
+    const std::vector<fs::path> items = items_in(folder);
+    WorkAnswer answer{folder, {}, items.size(), {}};
+    for (const fs::path& file : items) {
+        const auto result = result_of(read_item(file, program_version), results_of(file));
+        if (result) answer.pieces.push_back(*result);
+    }
+    return answer;
+}
+
+std::vector<std::string> take_results(const fs::path& folder, const std::string& program_version,
+                                      const ProjectContext& context) {
+    std::vector<std::string> missing;
+    fs::create_directories(folder / "cache");
+    const std::vector<fs::path> items = items_in(folder);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        context.check_cancelled();
+        context.progress("results checked", i, items.size());
+        const WorkItem item = read_item(items[i], program_version);
+        const fs::path result = results_of(items[i]) / item.result;
+        if (result_of(item, results_of(items[i]))) {
+            write_file(folder / "cache" / item.result, read_file(result));
+        } else {
+            missing.push_back(item.job.piece.name);
+        }
+    }
+    return missing;
 }
 
 }  // namespace qchopper

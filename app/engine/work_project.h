@@ -1,7 +1,8 @@
-// Makes the programs of some pieces of a prepared project, so that several processes, on several machines that share
-// its folder, make those of all of it; prepare then takes them (app/jobs/kept_programs.h).
+// Programs of the pieces of a project by several processes, on one machine or on many: prepare writes an item per
+// piece, work makes the programs of some of them, and gather takes the results.
 //
-// The jobs are the same to the byte as if prepare had made their programs itself (tests/app/cli/work_test.cpp). What is
+// Items and results lie in work/ of the project and depend on nothing else (docs/developer/formats/work-folder.md). The
+// jobs are the same to the byte as if prepare had made their programs itself (tests/app/cli/work_test.cpp). What is
 // finished stays when the program is stopped or killed.
 
 #pragma once
@@ -13,31 +14,47 @@
 #include <string>
 #include <vector>
 
-#include "app/jobs/piece_jobs.h"
+#include "app/jobs/work_item.h"
 #include "app/store/project_context.h"
 
 namespace qchopper {
 
-// One of `count` parts of the pieces. Invariant: number < count.
+class OpenProject;
+
+// One of `count` parts of the items. Invariant: number < count.
 struct Shard {
     std::size_t number = 0;
     std::size_t count = 1;
 };
 
-// Indices of the pieces of a shard, the largest first: by the surface of their boxes each goes to the shard that has
-// least so far. Every piece is in one shard. O(pieces * (log(pieces) + shards) + points).
-std::vector<std::size_t> pieces_of(const Shard& shard, std::span<const Piece> pieces);
+// Indices of the items of a shard, the largest effort first: each goes to the shard that has least so far. Every item
+// is in one shard. O(items * (log(items) + shards)).
+std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> efforts);
 
 struct WorkAnswer {
-    std::filesystem::path folder;
+    std::filesystem::path folder;  // of the project; empty: single items
     Shard shard;
-    std::size_t piece_count = 0;      // of the project
-    std::vector<WorkedPiece> pieces;  // of the shard, in the order of the project's
+    std::size_t piece_count = 0;      // items in all
+    std::vector<WorkedPiece> pieces;  // of the shard, in the order of their names
 };
 
-// Takes no lock and changes nothing but the cache. `on_piece` is called from one thread at a time. Throws what
-// load_project throws, InputError (use) for a project that is not prepared or whose cell takes no programs, Cancelled.
-WorkAnswer work_project(const std::filesystem::path& folder, const Shard& shard, const std::string& program_version,
-                        const std::function<void(const WorkedPiece&)>& on_piece, const ProjectContext& context);
+// Writes work/items/<piece>.qitem of every piece that gets a program, in place of those that are there; how many.
+// Throws InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
+std::size_t write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context);
+
+// Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
+// results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a
+// time. Throws InputError (missing) if there is no item, what read_item throws, Cancelled.
+WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const Shard& shard,
+                      const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
+                      const ProjectContext& context);
+
+// What the results of a project hold, and nothing is made.
+WorkAnswer work_done(const std::filesystem::path& folder, const std::string& program_version);
+
+// Checks the results of a project and copies those that are whole into its cache, where prepare finds them. Names of
+// the pieces whose result is missing or damaged. Throws as work_items() does.
+std::vector<std::string> take_results(const std::filesystem::path& folder, const std::string& program_version,
+                                      const ProjectContext& context);
 
 }  // namespace qchopper

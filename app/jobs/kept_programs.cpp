@@ -204,7 +204,9 @@ std::optional<PiecePrograms> kept_programs(const fs::path& file, const ProgramSo
     }
 }
 
-void keep_programs(const fs::path& file, const ProgramSource& source, const PiecePrograms& programs) {
+namespace {
+
+CacheWriter written(const ProgramSource& source, const PiecePrograms& programs) {
     CacheWriter out;
     out.put(source.job.piece_no);
     out.put(programs.none_because);
@@ -220,7 +222,17 @@ void keep_programs(const fs::path& file, const ProgramSource& source, const Piec
     }
     out.put(programs.parts.size());
     for (const ProvenProgram& part : programs.parts) put(out, part);
-    keep(file, out);
+    return out;
+}
+
+}  // namespace
+
+Bytes programs_bytes(const ProgramSource& source, const PiecePrograms& programs) {
+    return sealed(written(source, programs));
+}
+
+void keep_programs(const fs::path& file, const ProgramSource& source, const PiecePrograms& programs) {
+    keep(file, written(source, programs));
 }
 
 }  // namespace qchopper

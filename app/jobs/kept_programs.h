@@ -34,6 +34,9 @@ std::filesystem::path programs_file(const std::filesystem::path& folder, const P
 // taken counts as written now (remove_oldest of app/store/caches/cache_file.h). O(bytes).
 std::optional<PiecePrograms> kept_programs(const std::filesystem::path& file, const ProgramSource& source);
 
+// The bytes of that file. O(bytes).
+Bytes programs_bytes(const ProgramSource& source, const PiecePrograms& programs);
+
 // What cannot be written is not kept. O(bytes).
 void keep_programs(const std::filesystem::path& file, const ProgramSource& source, const PiecePrograms& programs);
 

@@ -314,25 +314,17 @@ void tell_kept(const std::vector<PieceReport>& reports, const Context& context) 
 
 }  // namespace
 
-WorkedPiece keep_programs_of(const fs::path& folder, Project project, const Segmentation& segmentation,
-                             std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
-                             const std::string& program_version, const Context& context) {
+std::optional<WorkItem> item_of(const fs::path& folder, Project project, const Segmentation& segmentation,
+                                std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
+                                const std::string& program_version) {
     const Piece& piece = segmentation.pieces[index];
     const PlacedSetup& piece_setup = setups.placed(piece);
-    if (is_only_sawn(piece_setup.setup(), *piece.mesh)) return {piece.name, {}, "the saw alone makes it"};
-    if (!piece_setup.fits()) return {piece.name, {}, "it does not fit the cell"};
+    if (is_only_sawn(piece_setup.setup(), *piece.mesh) || !piece_setup.fits()) return std::nullopt;
     project.has_programs = true;
     const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
-    PieceReport report;
-    const PiecePrograms programs =
-        programs_of(orders, job_input(orders, index, piece_setup), piece_setup, context, report);
-    WorkedPiece worked{piece.name, ProgramOutcome::none, programs.none_because, report.has_kept_programs};
-    if (programs.parts.empty()) return worked;
-    const auto is_proven = [](const ProvenProgram& part) { return part.proof.is_proven(); };
-    const bool are_proven = std::ranges::all_of(programs.parts, is_proven);
-    worked.outcome = are_proven ? ProgramOutcome::proven : ProgramOutcome::refused;
-    for (const ProvenProgram& part : programs.parts) worked.time_s += part.proof.time_s;
-    return worked;
+    const JobInput input = job_input(orders, index, piece_setup);
+    return work_item(input, piece_setup, read_file(folder / "cell.toml", settings_limit), source_of(orders, input).fine,
+                     kept_file(orders, input).filename().string());
 }
 
 PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,

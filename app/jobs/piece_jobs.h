@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "app/jobs/access_advice.h"
 #include "app/jobs/job_verdict.h"
 #include "app/jobs/setups.h"
+#include "app/jobs/work_item.h"
 #include "app/store/project.h"
 #include "base/context.h"
 #include "segment/joint/piece_joints.h"
@@ -42,23 +44,12 @@ struct PieceReport {
     bool is_proven() const;          // every part is; false without a program
 };
 
-// What is known of the programs of a piece once they are made, or once it is known that there are none.
-enum class ProgramOutcome { proven, refused, none };
-
-struct WorkedPiece {
-    std::string name;
-    ProgramOutcome outcome = ProgramOutcome::none;
-    std::string none_because = {};  // without a full stop; of `none`
-    bool was_kept = false;          // an earlier run made them
-    double time_s = 0;              // machine time of all parts
-};
-
-// Makes the programs of one piece and keeps them, so that write_jobs() of any process that shares the folder takes them
-// (kept_programs.h), also where prepare was asked for none. Writes nothing else, and needs no lock: what two processes
-// make of one piece is the same. `index` and `joints` as in write_job(). Throws Cancelled.
-WorkedPiece keep_programs_of(const std::filesystem::path& folder, Project project, const Segmentation& segmentation,
-                             std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
-                             const std::string& program_version, const Context& context);
+// What the programs of one piece are made from, also where prepare was asked for none; nothing of a piece that does not
+// fit the cell or that the saw alone makes. write_jobs() takes the file WorkItem::result from the project's cache.
+// `index` and `joints` as in write_job().
+std::optional<WorkItem> item_of(const std::filesystem::path& folder, Project project, const Segmentation& segmentation,
+                                std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
+                                const std::string& program_version);
 
 // Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell and the saw alone does not make
 // it, else removes them, and records them in the project, which is not saved. `index` is that of the piece in the

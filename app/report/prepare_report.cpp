@@ -212,8 +212,12 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     }
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + job_count(prepared) + " in " + folder + "/jobs, pictures in " + folder + "/pictures.");
-    lines.push_back(std::string("Next: qchopper ") + (prepared.project.jobs.empty() ? "setup " : "dry-run ") +
-                    shell_word(prepared.folder));
+    if (prepared.items > 0) {
+        lines.push_back(counted(prepared.items, "item") + " in " + folder +
+                        "/work/items; shards of them can be made anywhere.");
+    }
+    const char* next = prepared.items > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";
+    lines.push_back(std::string("Next: qchopper ") + next + shell_word(prepared.folder));
     return lines;
 }
 

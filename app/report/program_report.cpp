@@ -88,7 +88,9 @@ std::vector<std::string> lines(const WorkAnswer& answer) {
                    std::to_string(count_of(answer, ProgramOutcome::proven)) + " proven, " +
                    std::to_string(count_of(answer, ProgramOutcome::refused)) + " refused, " +
                    std::to_string(count_of(answer, ProgramOutcome::none)) + " without programs.");
-    text.push_back("Next, when all shards are done: qchopper prepare " + shell_word(answer.folder) + " --programs");
+    if (!answer.folder.empty()) {
+        text.push_back("Next, when all shards are done: qchopper gather " + shell_word(answer.folder));
+    }
     return text;
 }
 

@@ -99,6 +99,7 @@ struct ProjectArguments : RepairChoiceArguments {
 struct PrepareArguments : ProjectArguments {
     bool programs = false;
     bool no_programs = false;
+    bool items = false;
 };
 
 struct SegmentArguments : ProjectArguments {
@@ -130,8 +131,14 @@ struct ExportArguments : ExportRequest {
 };
 
 struct WorkArguments {
+    std::vector<std::filesystem::path> inputs;  // projects, or files of items
+    std::optional<std::string> shard;           // option_values.h reads it
+    bool status = false;
+};
+
+struct GatherArguments {
     std::filesystem::path project;
-    std::optional<std::string> shard;  // option_values.h reads it
+    bool make_missing = false;
 };
 
 struct CellsListArguments {
@@ -206,8 +213,8 @@ struct Arguments {
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 CellsReachArguments, SetupArguments, WorkArguments, VerifyArguments, DryRunArguments, CellSimArguments,
-                 DispatchArguments, JournalArguments, CellControlArguments, SchemaArguments>
+                 CellsReachArguments, SetupArguments, WorkArguments, GatherArguments, VerifyArguments, DryRunArguments,
+                 CellSimArguments, DispatchArguments, JournalArguments, CellControlArguments, SchemaArguments>
         command;
 };
 

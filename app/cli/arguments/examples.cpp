@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 17> all_examples{{
+constexpr std::array<Examples, 18> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -55,10 +55,13 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"setup", R"(  qchopper setup vertebra.qch
   qchopper setup vertebra.qch --piece B
   qchopper setup vertebra.qch --piece B --base 2 --orientations 3)"},
-    {"work", R"(  qchopper prepare vertebra.ply --units mm --cell cells/kr60-ha.toml --no-programs -o vertebra.qch
+    {"work", R"(  qchopper prepare vertebra.ply --units mm --cell cells/kr60-ha.toml --items -o vertebra.qch
   qchopper work vertebra.qch --shard 0/2 &
   qchopper work vertebra.qch --shard 1/2 && wait
-  qchopper prepare vertebra.qch --programs)"},
+  qchopper gather vertebra.qch)"},
+    {"gather", R"(  qchopper work vertebra.qch --status
+  qchopper gather vertebra.qch
+  qchopper gather vertebra.qch --make-missing)"},
     {"verify", R"(  qchopper verify vertebra.qch
   qchopper verify vertebra.qch --piece B
   qchopper verify B.qjob --cell cells/kr60-ha.toml)"},

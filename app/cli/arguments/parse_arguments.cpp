@@ -92,6 +92,7 @@ struct Parser {
     CellsReachArguments cells_reach;
     SetupArguments setup;
     WorkArguments work;
+    GatherArguments gather;
     VerifyArguments verify;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
@@ -115,6 +116,7 @@ struct Parser {
         add_cells();
         add_setup();
         add_work();
+        add_gather();
         add_verify();
         add_dry_run();
         add_cell_sim();
@@ -267,12 +269,24 @@ struct Parser {
     }
 
     void add_work() {
-        CLI::App* c = app.add_subcommand(
-            "work", "make the robot programs of some pieces of a prepared project, beside others that make the rest");
-        add_project(c, work.project);
-        c->add_option("--shard", work.shard, "I/N: those of part I of N, from 0 to N - 1 (0/1: all)")
-            ->check(read_by(shard_from, "no I/N with I from 0 to N - 1"));
+        CLI::App* c = app.add_subcommand("work",
+                                         "make the robot programs of items that prepare --items wrote, beside other "
+                                         "processes that make the rest; needs neither scan nor lock");
+        c->add_option("INPUT", work.inputs, "the folder NAME.qch of a project with items, or items NAME.qitem")
+            ->required();
+        CLI::Option* shard =
+            c->add_option("--shard", work.shard, "I/N: those of part I of N, from 0 to N - 1 (0/1: all)")
+                ->check(read_by(shard_from, "no I/N with I from 0 to N - 1"));
+        c->add_flag("--status", work.status, "show what is made, and make nothing")->excludes(shard);
         add_common(c, common, [this] { common.command = work; });
+    }
+
+    void add_gather() {
+        CLI::App* c =
+            app.add_subcommand("gather", "check the programs that work has made, and write the jobs with them");
+        add_project(c, gather.project);
+        c->add_flag("--make-missing", gather.make_missing, "make those that are missing or damaged here");
+        add_common(c, common, [this] { common.command = gather; });
     }
 
     void add_verify() {

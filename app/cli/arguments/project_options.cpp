@@ -231,7 +231,11 @@ void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
     CLI::Option* without = c->add_flag("--no-programs", prepare.no_programs,
                                        "write jobs without robot programs, now and whenever this project goes on; they "
                                        "go to a simulated cell only");
-    c->add_flag("--programs", prepare.programs, "write robot programs again, after --no-programs")->excludes(without);
+    CLI::Option* with = c->add_flag("--programs", prepare.programs, "write robot programs again, after --no-programs")
+                            ->excludes(without);
+    c->add_flag("--items", prepare.items,
+                "write no programs, but what they are made from, for work and gather, into NAME.qch/work")
+        ->excludes(with);
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
     add_common(c, common, [&] { common.command = prepare; });
 }

@@ -16,28 +16,35 @@ fs::path cache_file(const fs::path& folder, const CacheWriter& key, const std::s
     return folder / (to_hex(sha256(key.bytes())) + extension);
 }
 
+Bytes sealed(const CacheWriter& content) {
+    Bytes bytes = content.bytes();
+    const Sha256 digest = sha256(bytes);
+    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
+    return bytes;
+}
+
+std::optional<Bytes> unsealed(Bytes bytes) {
+    if (bytes.size() < sizeof(Sha256)) return std::nullopt;
+    const std::size_t size = bytes.size() - sizeof(Sha256);
+    const Sha256 digest = sha256(std::span(bytes).first(size));
+    if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.end() - sizeof(Sha256))) return std::nullopt;
+    bytes.resize(size);
+    return bytes;
+}
+
 std::optional<Bytes> kept(const fs::path& file) {
     try {
-        Bytes bytes = read_file(file);
-        if (bytes.size() < sizeof(Sha256)) return std::nullopt;
-        const std::size_t size = bytes.size() - sizeof(Sha256);
-        const Sha256 digest = sha256(std::span(bytes).first(size));
-        if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.end() - sizeof(Sha256))) return std::nullopt;
-        bytes.resize(size);
-        return bytes;
+        return unsealed(read_file(file));
     } catch (const InputError&) {
         return std::nullopt;
     }
 }
 
 void keep(const fs::path& file, const CacheWriter& content) {
-    Bytes bytes = content.bytes();
-    const Sha256 digest = sha256(bytes);
-    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
     try {
-        write_file(file, bytes);
+        write_file(file, sealed(content));
     } catch (const InputError&) {
     }
 }

@@ -96,6 +96,10 @@ class CacheReader {
 std::filesystem::path cache_file(const std::filesystem::path& folder, const CacheWriter& key,
                                  const std::string& extension);
 
+// The values with their SHA-256 behind them, and the values of such bytes; nothing if they are damaged. O(bytes).
+Bytes sealed(const CacheWriter& content);
+std::optional<Bytes> unsealed(Bytes bytes);
+
 // What keep() wrote; nothing if there is no such file, or it is damaged. Never throws InputError.
 std::optional<Bytes> kept(const std::filesystem::path& file);
 

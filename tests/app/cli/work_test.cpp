@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -34,45 +35,97 @@ struct ShardedWork : ::testing::Test {
     }
     Contents without_cache(const std::string& project) const {
         Contents all = program::contents(folder.path / project);
-        std::erase_if(all, [](const auto& file) { return file.first.starts_with("cache"); });
+        std::erase_if(
+            all, [](const auto& file) { return file.first.starts_with("cache") || file.first.starts_with("work"); });
         return all;
     }
 };
 
+// Without cache and work, which are no result.
 TEST_F(ShardedWork, OfShardsIsWhatPrepareMakesToTheByte) {
     prepare("whole.qch", {"--programs"});
-    prepare("parts.qch", {"--no-programs"});
+    prepare("parts.qch", {"--items"});
+    EXPECT_EQ(run({"work", "parts.qch", "--status", "--json"}).code, 0);
+    // No scan is needed, and no lock: nothing but the items.
+    fs::rename(folder.path / "v.ply", folder.path / "away.ply");
+    fs::create_directories(folder.path / "elsewhere");
+    fs::copy(folder.path / "parts.qch" / "work", folder.path / "elsewhere" / "work", fs::copy_options::recursive);
     // As on a processor without fused arithmetic, which gives sines and cosines other last digits.
     ::setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F", 1);
-    const json one = json::parse(run({"work", "parts.qch", "--shard", "1/2", "--json", "--threads", "1"}).out);
+    const json one = json::parse(run({"work", "elsewhere", "--shard", "1/2", "--json", "--threads", "1"}).out);
     ::unsetenv("GLIBC_TUNABLES");
     const json other = json::parse(run({"work", "parts.qch", "--shard", "0/2", "--json"}).out);
+    fs::copy(folder.path / "elsewhere" / "work" / "results", folder.path / "parts.qch" / "work" / "results",
+             fs::copy_options::recursive);
     EXPECT_EQ(one["schema"], "qchopper-work-1");
     EXPECT_EQ(one["pieces"].size() + other["pieces"].size(), one["piece_count"]);
     EXPECT_EQ(one["piece_count"], other["piece_count"]);
     for (const json& piece : one["pieces"]) EXPECT_EQ(piece["kept"], false);
-    const json again = json::parse(run({"work", "parts.qch", "--json"}).out);
-    EXPECT_EQ(again["pieces"].size(), again["piece_count"]);
-    for (const json& piece : again["pieces"]) EXPECT_EQ(piece["kept"], piece["outcome"] != "none") << piece;
-    const Ended prepared = run({"prepare", "parts.qch", "--programs"});
-    EXPECT_EQ(prepared.code, 0) << prepared.err;
-    EXPECT_NE(prepared.err.find("kept from an earlier run, of 0 made"), std::string::npos) << prepared.err;
+    for (const char* how : {"--status", "--shard=0/1"}) {
+        const json again = json::parse(run({"work", "parts.qch", how, "--json"}).out);
+        EXPECT_EQ(again["pieces"].size(), again["piece_count"]) << how;
+        for (const json& piece : again["pieces"]) EXPECT_EQ(piece["kept"], true) << piece;
+    }
+    fs::rename(folder.path / "away.ply", folder.path / "v.ply");
+    const Ended gathered = run({"gather", "parts.qch"});
+    EXPECT_EQ(gathered.code, 0) << gathered.err;
+    EXPECT_NE(gathered.err.find("kept from an earlier run, of 0 made"), std::string::npos) << gathered.err;
     EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
+}
+
+// A result that is cut short, has another bit or is that of another piece is not used.
+TEST_F(ShardedWork, DamagedItemsAndResultsAreNamedAndNotUsed) {
+    prepare("p.qch", {"--items"});
+    const fs::path items = folder.path / "p.qch" / "work" / "items";
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(items)) files.push_back(entry.path());
+    ASSERT_GE(files.size(), 2U);
+    std::sort(files.begin(), files.end());
+    const std::string whole = program::bytes_in(files[0]);
+    ASSERT_EQ(run({"work", files[1].string()}).code, 0) << "one item alone";
+    for (const std::string& damaged :
+         {std::string(), whole.substr(0, whole.size() / 2), whole.substr(1), std::string("qchopper item 1")}) {
+        program::put(files[0], damaged);
+        const Ended work = run({"work", "p.qch"});
+        EXPECT_EQ(work.code, exit_mesh) << work.err;
+        EXPECT_NE(work.err.find(files[0].filename().string()), std::string::npos) << work.err;
+    }
+    program::put(files[0], whole);
+    const Ended missing = run({"gather", "p.qch"});
+    EXPECT_EQ(missing.code, exit_missing);
+    EXPECT_NE(missing.err.find("no whole result of 1 piece: " + files[0].stem().string()), std::string::npos)
+        << missing.err;
+    const fs::path results = folder.path / "p.qch" / "work" / "results";
+    const fs::path result = fs::directory_iterator(results)->path();
+    std::string bytes = program::bytes_in(result);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    program::put(result, bytes);
+    EXPECT_NE(run({"gather", "p.qch"}).err.find("no whole result of 2 pieces"), std::string::npos);
+    const Ended made = run({"gather", "p.qch", "--make-missing"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(run({"gather", "p.qch"}).code, exit_missing) << "the results are as they were";
 }
 
 TEST_F(ShardedWork, IsRefusedWhereItCannotBeDone) {
     EXPECT_EQ(run({"work", "none.qch"}).code, exit_missing);
     fs::copy(program::prepared() / "scan.qch", folder.path / "boxes.qch", fs::copy_options::recursive);
     const Ended boxes = run({"work", "boxes.qch"});
-    EXPECT_EQ(boxes.code, exit_use);
-    EXPECT_NE(boxes.err.find("no programs are made for"), std::string::npos) << boxes.err;
+    EXPECT_EQ(boxes.code, exit_missing);
+    EXPECT_NE(boxes.err.find("qchopper prepare boxes.qch --items"), std::string::npos) << boxes.err;
+    const Ended items = run({"prepare", "boxes.qch", "--items"});
+    EXPECT_EQ(items.code, exit_use);
+    EXPECT_NE(items.err.find("no programs are made for"), std::string::npos) << items.err;
     for (const char* shard : {"2/2", "1/0", "1", "-1/2", "0.5/2", "a/b", "/", "0/1000001"}) {
         EXPECT_EQ(run({"work", "boxes.qch", "--shard", shard}).code, exit_use) << shard;
     }
-    ASSERT_EQ(run({"segment", "boxes.qch", "--undo"}).code, 0);
-    const Ended cutting = run({"work", "boxes.qch"});
-    EXPECT_EQ(cutting.code, exit_use);
-    EXPECT_NE(cutting.err.find("qchopper prepare boxes.qch --no-programs"), std::string::npos) << cutting.err;
+}
+
+TEST_F(ShardedWork, ADecisionRemovesItems) {
+    prepare("p.qch", {"--items"});
+    EXPECT_TRUE(fs::exists(folder.path / "p.qch" / "work" / "items"));
+    ASSERT_EQ(run({"segment", "p.qch", "--undo"}).code, 0);
+    EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "work"));
+    EXPECT_EQ(run({"work", "p.qch"}).code, exit_missing);
 }
 
 }  // namespace

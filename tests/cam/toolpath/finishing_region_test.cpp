@@ -188,6 +188,31 @@ TEST(FinishingRegion, GrowsToTheLowestAround) {
     }
 }
 
+// The block ends in the plane of a side of the box: there is no floor beyond it.
+TEST(FloorBand, EndsAtASawnFace) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 20});
+    auto setup = setup_of(mesh, 12);
+    setup.block.size.x -= 12;
+    setup.piece_in_setup.shift.x += 6;
+    setup.box = {setup.box.min + Vec3{6, 0, 0}, setup.box.max + Vec3{6, 0, 0}};
+    const HeightField target = piece_height_field(setup, mesh, 0, {cell, -6, 12});
+    for (const bool is_sawn : {false, true}) {
+        if (is_sawn) setup.flush_caps.push_back({1, BlockFace::plus_x, 400});
+        FinishingRegion region(target.height.size(), not_finished);
+        add_floor_band(region, target, 10, setup);
+        std::size_t beside = 0;
+        std::size_t beyond = 0;
+        for (std::size_t i = 0; i < region.size(); ++i) {
+            if (region[i] == not_finished) continue;
+            const double x = cell * (static_cast<double>(i % target.columns) + 0.5);
+            const double y = cell * (static_cast<double>(i / target.columns) + 0.5);
+            ++(field_to_setup(setup, target, {x, y, 0}).x > setup.box.max.x ? beyond : beside);
+        }
+        EXPECT_GT(beside, 1000U);
+        EXPECT_EQ(beyond == 0, is_sawn) << beyond;
+    }
+}
+
 TEST(FinishingRegion, TheFloorBand) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 10});
     const auto setup = setup_of(mesh, 30);
