@@ -24,6 +24,13 @@
 namespace qchopper {
 
 // A finished project, and how each of its pieces is milled.
+// Of what programs are made from, with the estimated time of making them: CPU seconds of one processor of 2026.
+struct WrittenItems {
+    std::size_t count = 0;
+    double all_s = 0;
+    double largest_s = 0;
+};
+
 struct PreparedProject {
     std::filesystem::path folder;
     Project project;
@@ -31,7 +38,7 @@ struct PreparedProject {
     double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
     std::vector<PieceReport> pieces;  // in the order of the project's
     ProjectJoints joints = {};        // of them
-    std::size_t items = 0;            // written for other processes to work on (work_project.h)
+    WrittenItems items = {};          // for other processes to work on (work_project.h)
     bool all_fit() const;
     // Whether jobs of this cell hold programs, and programs were asked for.
     bool has_programs() const;

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <numeric>
 
-#include "app/engine/open_project.h"
 #include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
 #include "base/error.h"
@@ -74,7 +73,7 @@ std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> ef
     return own;
 }
 
-std::size_t write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context) {
+WrittenItems write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context) {
     const Cell& cell = project.setups()->cell();
     const std::string because = no_programs_for(cell);
     if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
@@ -82,7 +81,7 @@ std::size_t write_items(OpenProject& project, const std::string& program_version
     const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell), context);
     fs::remove_all(project.folder() / "work");
     fs::create_directories(items_folder(project.folder()));
-    std::size_t count = 0;
+    WrittenItems written;
     for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
         context.check_cancelled();
         context.progress("items written", i, segmentation.pieces.size());
@@ -90,9 +89,11 @@ std::size_t write_items(OpenProject& project, const std::string& program_version
             item_of(project.folder(), project.project(), segmentation, i, *project.setups(), joints, program_version);
         if (!item) continue;
         write_item(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), *item);
-        ++count;
+        ++written.count;
+        written.all_s += item->effort;
+        written.largest_s = std::max(written.largest_s, item->effort);
     }
-    return count;
+    return written;
 }
 
 WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, const std::string& program_version,

@@ -14,12 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "app/engine/open_project.h"
 #include "app/jobs/work_item.h"
 #include "app/store/project_context.h"
 
 namespace qchopper {
-
-class OpenProject;
 
 // One of `count` parts of the items. Invariant: number < count.
 struct Shard {
@@ -38,9 +37,9 @@ struct WorkAnswer {
     std::vector<WorkedPiece> pieces;  // of the shard, in the order of their names
 };
 
-// Writes work/items/<piece>.qitem of every piece that gets a program, in place of those that are there; how many.
-// Throws InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
-std::size_t write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context);
+// Writes work/items/<piece>.qitem of every piece that gets a program, in place of those that are there. Throws
+// InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
+WrittenItems write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context);
 
 // Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
 // results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a

@@ -258,7 +258,7 @@ JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>
         if (!has_programs || !piece_setup.fits() || is_only_sawn(piece_setup.setup(), mesh)) return;
         std::error_code error;
         if (fs::exists(kept_file(orders, job_input(orders, i, piece_setup)), error)) return;
-        effort[i] = program_effort(piece_setup.setup(), volume_mm3(mesh));
+        effort[i] = program_effort(piece_setup.setup());
     });
     JobPlan plan;
     for (std::size_t i = 0; i < count; ++i) plan.order.push_back(i);

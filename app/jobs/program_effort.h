@@ -16,9 +16,9 @@
 
 namespace qchopper {
 
-// By the foam that is milled off, the surface that is milled, and the number of orientations
-// (tests/app/jobs/program_effort_test.cpp). Precondition: piece_mm3 is the volume of the piece of the setup. O(1).
-double program_effort(const Setup& setup, double piece_mm3);
+// By the block, the surface that is milled, and the number of orientations (tests/app/jobs/program_effort_test.cpp).
+// O(1).
+double program_effort(const Setup& setup);
 
 // A program to be made.
 struct PlannedProgram {

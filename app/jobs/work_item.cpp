@@ -15,7 +15,6 @@
 #include "base/error.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/manifest.h"
-#include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
@@ -175,7 +174,7 @@ WorkItem work_item(const JobInput& job, const PlacedSetup& piece_setup, const By
     item.cell_file = cell_file;
     item.fine = fine;
     item.result = result;
-    item.effort = program_effort(piece_setup.setup(), volume_mm3(*job.piece.mesh));
+    item.effort = program_effort(piece_setup.setup());
     return item;
 }
 

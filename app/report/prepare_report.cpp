@@ -3,6 +3,7 @@
 #include "app/report/prepare_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -212,11 +213,13 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     }
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + job_count(prepared) + " in " + folder + "/jobs, pictures in " + folder + "/pictures.");
-    if (prepared.items > 0) {
-        lines.push_back(counted(prepared.items, "item") + " in " + folder +
-                        "/work/items; shards of them can be made anywhere.");
+    if (prepared.items.count > 0) {
+        const auto seconds = [](double s) { return duration(static_cast<std::uint32_t>(std::ceil(s))); };
+        lines.push_back(counted(prepared.items.count, "item") + " in " + folder +
+                        "/work/items; their programs take about " + seconds(prepared.items.all_s) +
+                        " of one processor, the largest " + seconds(prepared.items.largest_s) + ".");
     }
-    const char* next = prepared.items > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";
+    const char* next = prepared.items.count > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";
     lines.push_back(std::string("Next: qchopper ") + next + shell_word(prepared.folder));
     return lines;
 }

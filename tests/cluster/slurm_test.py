@@ -1,0 +1,209 @@
+"""Work on a real Slurm: two nodes on this machine, started for the test in a folder of its own, and ended with it.
+
+    slurm_test.py PROGRAM CELL
+
+A worker is killed, a task is requeued, a node is restarted; the jobs are those of one prepare, to the byte. Exit code 77
+where Slurm or munge is not installed.
+"""
+
+import hashlib
+import os
+import pwd
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM, CELL = Path(sys.argv[1]), Path(sys.argv[2])
+DAEMONS = ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue")
+SEARCHED = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
+SHARDS = 2
+
+CONF = """ClusterName=scratch
+SlurmctldHost={host}(127.0.0.1)
+SlurmctldPort={port}
+CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
+AuthInfo=socket={folder}/munge/socket,cred_expire=5
+SlurmUser={user}
+SlurmdUser={user}
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/%n
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/%n.pid
+SlurmctldLogFile={folder}/log/slurmctld.log
+SlurmdLogFile={folder}/log/%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+SchedulerParameters=sched_interval=2,bf_interval=2
+ReturnToService=2
+SlurmdTimeout=30
+KillWait=3
+EnforcePartLimits=ALL
+NodeName=n[0-1] NodeHostname={host} NodeAddr=127.0.0.1 Port={node_ports} CPUs=1 RealMemory=1500
+PartitionName=all Nodes=ALL Default=YES MaxTime=60
+"""
+
+SCRIPT = """#!/bin/sh
+#SBATCH --cpus-per-task=1 --mem=500M --time=10 --requeue --open-mode=append --output={log}
+exec {program} work {project} --threads "$SLURM_CPUS_PER_TASK" --shard "$SLURM_ARRAY_TASK_ID/{shards}"
+"""
+
+
+def free_ports(count):
+    """Ports in a row that nothing listens on."""
+    for first in range(26900, 60000, count):
+        try:
+            for port in range(first, first + count):
+                with socket.socket() as probe:
+                    probe.bind(("127.0.0.1", port))
+            return first
+        except OSError:
+            continue
+    raise AssertionError("no free ports")
+
+
+def wait_until(what, holds, seconds):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if holds():
+            return
+        time.sleep(0.2)
+    raise AssertionError(f"{what}: not within {seconds} s")
+
+
+class Slurm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="qchopper-slurm-"))
+        cls.daemons = []
+        cls.addClassCleanup(cls.end)
+        for name in ("munge", "state", "log", "n0", "n1"):
+            (cls.folder / name).mkdir(mode=0o700)
+        key = cls.folder / "munge" / "key"
+        key.write_bytes(os.urandom(128))
+        key.chmod(0o600)
+        port = free_ports(3)
+        host = socket.gethostname().split(".")[0]
+        conf = cls.folder / "slurm.conf"
+        conf.write_text(CONF.format(folder=cls.folder, host=host, port=port, user=pwd.getpwuid(os.getuid()).pw_name,
+                                    node_ports=f"{port + 1}-{port + 2}"))
+        cls.environment = dict(os.environ, PATH=SEARCHED, SLURM_CONF=str(conf))
+        munge = cls.folder / "munge"
+        cls.start("munged", "--foreground", "--force", f"--key-file={key}", f"--socket={munge}/socket",
+                  f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed")
+        wait_until("munge", (munge / "socket").exists, 20)
+        cls.start("slurmctld", "-D", "-f", conf)
+        for node in ("n0", "n1"):
+            cls.start("slurmd", "-D", "-f", conf, "-N", node)
+        wait_until("two idle nodes", lambda: cls.asked("sinfo", "-h", "-o", "%t %D") == "idle 2", 60)
+        cls.program("sample", "vertebra", "--faces", "2000", "-o", "v.ply")
+        cls.program("prepare", "v.ply", "--units", "mm", "--scale", "0.35", "--cell", CELL, "-o", "whole.qch")
+
+    @classmethod
+    def start(cls, name, *arguments):
+        with (cls.folder / "log" / f"{name}-{len(cls.daemons)}.out").open("wb") as output:
+            daemon = subprocess.Popen([shutil.which(name, path=SEARCHED), *map(str, arguments)], stdout=output,
+                                      stderr=subprocess.STDOUT, env=cls.environment)
+        cls.daemons.append(daemon)
+
+    @classmethod
+    def end(cls):
+        for daemon in reversed(cls.daemons):
+            daemon.terminate()
+            try:
+                daemon.wait(10)
+            except subprocess.TimeoutExpired:
+                daemon.kill()
+                daemon.wait()
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def asked(cls, *command):
+        """What a command says; nothing if it fails."""
+        result = subprocess.run([str(a) for a in command], capture_output=True, text=True, check=False, timeout=60,
+                                cwd=cls.folder, env=cls.environment)
+        return result.stdout.strip() if result.returncode == 0 else ""
+
+    @classmethod
+    def program(cls, *arguments):
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
+                                timeout=300, cwd=cls.folder)
+        if result.returncode not in (0, 1):
+            raise AssertionError(f"{arguments} ended with {result.returncode}:\n{result.stderr}")
+        return result.stdout
+
+    def prepared(self, project):
+        """A project with items, and its script."""
+        self.program("prepare", "v.ply", "--units", "mm", "--scale", "0.35", "--cell", CELL, "--items", "-o", project)
+        script = self.folder / f"{project}.sh"
+        script.write_text(SCRIPT.format(log=self.folder / f"{project}-%a.log", program=PROGRAM, project=project,
+                                        shards=SHARDS))
+        return script
+
+    def submitted(self, script, tasks=f"0-{SHARDS - 1}"):
+        job = self.asked("sbatch", "--parsable", f"--array={tasks}", script)
+        self.assertTrue(job.isdigit(), job)
+        return job
+
+    def workers(self, project):
+        """The processes that work on a project."""
+        found = []
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                words = (folder / "cmdline").read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if words[0] == bytes(PROGRAM) and project.encode() in words:
+                found.append(int(folder.name))
+        return found
+
+    def ended(self, job):
+        wait_until(f"job {job}", lambda: self.asked("squeue", "-h", "-j", job, "-o", "%t") == "", 120)
+
+    def assert_same_jobs(self, project):
+        def jobs(name):
+            files = sorted((self.folder / name / "jobs").iterdir())
+            return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+        self.program("gather", project)
+        self.assertGreaterEqual(len(jobs("whole.qch")), 4)
+        self.assertEqual(jobs(project), jobs("whole.qch"))
+
+    def test_a_worker_that_is_killed_is_submitted_again(self):
+        script = self.prepared("killed.qch")
+        job = self.submitted(script)
+        wait_until("a worker", lambda: self.workers("killed.qch"), 60)
+        os.kill(self.workers("killed.qch")[0], signal.SIGKILL)
+        self.ended(job)
+        results = list((self.folder / "killed.qch" / "work" / "results").glob("*.programs"))
+        self.assertEqual(len(results), 1, "the other went on")
+        self.ended(self.submitted(script))
+        self.assert_same_jobs("killed.qch")
+
+    def test_a_task_is_requeued_and_a_node_restarted(self):
+        script = self.prepared("requeued.qch")
+        job = self.submitted(script)
+        wait_until("a worker", lambda: self.workers("requeued.qch"), 60)
+        self.asked("scontrol", "requeue", f"{job}_0")
+        node = self.daemons[-1]
+        node.kill()
+        node.wait()
+        self.start("slurmd", "-D", "-f", self.folder / "slurm.conf", "-N", "n1")
+        self.ended(job)
+        self.assert_same_jobs("requeued.qch")
+
+
+if __name__ == "__main__":
+    lacking = [name for name in DAEMONS if shutil.which(name, path=SEARCHED) is None]
+    if lacking:
+        print(f"skipped: {', '.join(lacking)} not installed")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], "-v"])
