@@ -88,7 +88,7 @@ WrittenItems write_items(OpenProject& project, const std::string& program_versio
         const std::optional<WorkItem> item =
             item_of(project.folder(), project.project(), segmentation, i, *project.setups(), joints, program_version);
         if (!item) continue;
-        write_item(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), *item);
+        write_file(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), to_bytes(*item));
         ++written.count;
         written.all_s += item->effort;
         written.largest_s = std::max(written.largest_s, item->effort);

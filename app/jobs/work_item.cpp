@@ -13,6 +13,7 @@
 #include "app/jobs/program_effort.h"
 #include "app/store/caches/cache_file.h"
 #include "base/error.h"
+#include "base/printable.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/manifest.h"
 
@@ -22,6 +23,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* mark = "qchopper item 1";
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+    throw InputError(InputFault::mesh, file.string() + " " + what,
+                     "write the items again: qchopper prepare NAME.qch --items");
+}
+
+std::uint8_t below(CacheReader& in, std::uint8_t count, const fs::path& file) {
+    const auto value = in.get<std::uint8_t>();
+    if (value >= count) refuse(file, "is damaged");
+    return value;
+}
 
 void put(CacheWriter& out, const RegionReachability& region) {
     out.put(region.orientation);
@@ -54,10 +66,11 @@ void put(CacheWriter& out, const MachineReachability& reachability) {
     for (const RegionReachability& region : reachability.regions) put(out, region);
 }
 
-MachineReachability reachability_from(CacheReader& in, const Setup& setup) {
+MachineReachability reachability_from(CacheReader& in, const Setup& setup, const fs::path& file) {
+    constexpr auto remedies = static_cast<std::uint8_t>(Remedy::cut) + 1;
     MachineReachability reachability;
     reachability.is_arm_checked = in.get<std::uint8_t>() != 0;
-    reachability.remedy = static_cast<Remedy>(in.get<std::uint8_t>());
+    reachability.remedy = static_cast<Remedy>(below(in, remedies, file));
     reachability.placement = setup.placement;
     for (std::size_t regions = in.count(); regions > 0; --regions) reachability.regions.push_back(region_from(in));
     return reachability;
@@ -114,11 +127,6 @@ JobInput job_from(const ReadJob& read, TriangleMesh mesh, const Cell& cell) {
     return job;
 }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-    throw InputError(InputFault::mesh, file.string() + " " + what,
-                     "write the items again: qchopper prepare NAME.qch --items");
-}
-
 bool is_mesh(const TriangleMesh& mesh) {
     const auto has_points = [&](const Triangle& triangle) {
         return std::ranges::all_of(triangle, [&](std::uint32_t corner) { return corner < mesh.points.size(); });
@@ -128,26 +136,28 @@ bool is_mesh(const TriangleMesh& mesh) {
 }
 
 // Only what the manifest of the same job gives is exact.
-WorkItem item_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
-    if (text_from(in) != mark) refuse(file, "is no item of qchopper");
-    const std::string version = text_from(in);
-    if (version != program_version)
-        refuse(file, "was written by build " + version + ", and this is " + program_version);
+WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
+    constexpr auto fine_tools = static_cast<std::uint8_t>(FineTools::none) + 1;
     WorkItem item;
     const std::string manifest = text_from(in);
     const ReadJob read = from_manifest(manifest, file.string());
-    item.fine = static_cast<FineTools>(in.get<std::uint8_t>());
+    item.fine = static_cast<FineTools>(below(in, fine_tools, file));
     item.result = text_from(in);
     item.effort = in.get<double>();
     item.cell_file = in.get_all<std::uint8_t>();
     item.cell = parse_cell(std::string(item.cell_file.begin(), item.cell_file.end()), file.string());
+    const bool is_consistent =
+        read.program_version == program_version && item.cell.machine && read.setup.block.stock < item.cell.stock.size();
+    if (!is_consistent || read.setup.access.orientations.empty()) refuse(file, "is damaged");
     item.job = job_from(read, mesh_from(in), item.cell);
-    item.job.machine_reachability = reachability_from(in, item.job.setup);
-    if (!in.is_whole() || !is_mesh(*item.job.piece.mesh)) refuse(file, "is damaged");
+    item.job.machine_reachability = reachability_from(in, item.job.setup, file);
+    const bool is_name = fs::path(item.result).filename() == item.result && !item.result.empty();
+    if (!in.is_whole() || !is_name || !is_mesh(*item.job.piece.mesh)) refuse(file, "is damaged");
     if (to_manifest(item.job, {}) != manifest) refuse(file, "does not hold what its manifest says");
     item.piece_setup.choice.setups = {item.job.setup};
     item.piece_setup.stock_fit = item.job.stock_fit;
     item.piece_setup.machine_reachability = item.job.machine_reachability;
+    if (!item.piece_setup.fits()) refuse(file, "is of a piece that does not fit");
     return item;
 }
 
@@ -178,7 +188,7 @@ WorkItem work_item(const JobInput& job, const PlacedSetup& piece_setup, const By
     return item;
 }
 
-void write_item(const fs::path& file, const WorkItem& item) {
+Bytes to_bytes(const WorkItem& item) {
     CacheWriter out;
     out.put(std::string(mark));
     out.put(item.job.program_version);
@@ -189,14 +199,28 @@ void write_item(const fs::path& file, const WorkItem& item) {
     out.put_all(item.cell_file);
     put(out, *item.job.piece.mesh);
     put(out, item.piece_setup.machine_reachability);
-    write_file(file, sealed(out));
+    return sealed(out);
+}
+
+WorkItem item_from(const Bytes& bytes, const fs::path& source, const std::string& program_version) {
+    const std::optional<Bytes> content = unsealed(bytes);
+    if (!content) refuse(source, "is damaged: its SHA-256 is not that of its content");
+    CacheReader in(*content);
+    if (text_from(in) != mark) refuse(source, "is no item of qchopper");
+    const std::string version = text_from(in);
+    if (version != program_version) {
+        refuse(source, "was written by build " + printable(version) + ", and this is " + program_version);
+    }
+    try {
+        return content_from(in, source, program_version);
+    } catch (const InputError& error) {  // of the cell file in it, or of its tools
+        if (error.fault == InputFault::mesh) throw;
+        refuse(source, std::string("is damaged: ") + error.what());
+    }
 }
 
 WorkItem read_item(const fs::path& file, const std::string& program_version) {
-    const std::optional<Bytes> content = unsealed(read_file(file));
-    if (!content) refuse(file, "is damaged: its SHA-256 is not that of its content");
-    CacheReader in(*content);
-    return item_from(in, file, program_version);
+    return item_from(read_file(file), file, program_version);
 }
 
 std::optional<WorkedPiece> result_of(const WorkItem& item, const fs::path& results) {
