@@ -26,6 +26,7 @@ int run(const CellsCheckArguments& arguments, Terminal& terminal);
 int run(const CellsReachArguments& arguments, Terminal& terminal);
 int run(const SetupArguments& arguments, Terminal& terminal);
 int run(const WorkArguments& arguments, Terminal& terminal);
+int run(const SubmitArguments& arguments, Terminal& terminal);
 int run(const GatherArguments& arguments, Terminal& terminal);
 int run(const VerifyArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);

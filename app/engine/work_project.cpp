@@ -131,6 +131,20 @@ WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, c
     return answer;
 }
 
+std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::string& program_version) {
+    constexpr double at_least = 0.3e9;
+    constexpr double per_m2 = 0.6e9;  // of the box's surface: maps have cells of a quarter of a millimetre
+    std::vector<ItemEstimate> estimates;
+    for (const fs::path& file : items_in(folder)) {
+        const WorkItem item = read_item(file, program_version);
+        const Vec3 size = item.job.setup.block.size;
+        const double m2 = 2e-6 * (size.x * size.y + size.y * size.z + size.z * size.x);
+        estimates.push_back(
+            {item.job.piece.name, item.effort, at_least + per_m2 * m2, result_of(item, results_of(file)).has_value()});
+    }
+    return estimates;
+}
+
 WorkAnswer work_done(const fs::path& folder, const std::string& program_version) {
     const std::vector<fs::path> items = items_in(folder);
     WorkAnswer answer{folder, {}, items.size(), {}};

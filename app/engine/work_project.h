@@ -48,6 +48,17 @@ WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const Sh
                       const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
                       const ProjectContext& context);
 
+// An item of a project with what making its programs takes, as it is estimated: CPU seconds of one processor of 2026,
+// and bytes of memory at their peak, which is never meant to be too little.
+struct ItemEstimate {
+    std::string piece;
+    double seconds = 0;
+    double bytes = 0;
+    bool is_made = false;  // its result is there
+};
+// By name. Throws as work_items() does.
+std::vector<ItemEstimate> item_estimates(const std::filesystem::path& folder, const std::string& program_version);
+
 // What the results of a project hold, and nothing is made.
 WorkAnswer work_done(const std::filesystem::path& folder, const std::string& program_version);
 

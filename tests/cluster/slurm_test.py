@@ -9,6 +9,7 @@ where Slurm or munge is not installed.
 import hashlib
 import os
 import pwd
+import re
 import shutil
 import signal
 import socket
@@ -50,12 +51,6 @@ EnforcePartLimits=ALL
 NodeName=n[0-1] NodeHostname={host} NodeAddr=127.0.0.1 Port={node_ports} CPUs=1 RealMemory=1500
 PartitionName=all Nodes=ALL Default=YES MaxTime=60
 """
-
-SCRIPT = """#!/bin/sh
-#SBATCH --cpus-per-task=1 --mem=500M --time=10 --requeue --open-mode=append --output={log}
-exec {program} work {project} --threads "$SLURM_CPUS_PER_TASK" --shard "$SLURM_ARRAY_TASK_ID/{shards}"
-"""
-
 
 def free_ports(count):
     """Ports in a row that nothing listens on."""
@@ -141,64 +136,79 @@ class Slurm(unittest.TestCase):
         return result.stdout
 
     def prepared(self, project):
-        """A project with items, and its script."""
         self.program("prepare", "v.ply", "--units", "mm", "--scale", "0.35", "--cell", CELL, "--items", "-o", project)
-        script = self.folder / f"{project}.sh"
-        script.write_text(SCRIPT.format(log=self.folder / f"{project}-%a.log", program=PROGRAM, project=project,
-                                        shards=SHARDS))
-        return script
 
-    def submitted(self, script, tasks=f"0-{SHARDS - 1}"):
-        job = self.asked("sbatch", "--parsable", f"--array={tasks}", script)
-        self.assertTrue(job.isdigit(), job)
-        return job
+    def submit(self, project, *options):
+        return subprocess.run([PROGRAM, "submit", project, "--shards", str(SHARDS), *options], capture_output=True,
+                              text=True, check=False, timeout=60, cwd=self.folder, env=self.environment)
+
+    def submitted(self, project):
+        """The numbers of the array and of gather after it."""
+        said = self.submit(project)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        found = re.search(r"jobs (\d+) and (\d+) are submitted", said.stderr)
+        self.assertTrue(found, said.stderr)
+        return found[1], found[2]
 
     def workers(self, project):
-        """The processes that work on a project."""
+        """The processes that work on it."""
         found = []
         for folder in Path("/proc").glob("[0-9]*"):
             try:
                 words = (folder / "cmdline").read_bytes().split(b"\0")
             except OSError:
                 continue
-            if words[0] == bytes(PROGRAM) and project.encode() in words:
+            if words[:2] == [bytes(PROGRAM), b"work"] and str(self.folder / project).encode() in words:
                 found.append(int(folder.name))
         return found
 
-    def ended(self, job):
-        wait_until(f"job {job}", lambda: self.asked("squeue", "-h", "-j", job, "-o", "%t") == "", 120)
+    def wait_for(self, jobs):
+        wait_until(f"jobs {jobs}", lambda: self.asked("squeue", "-h", "-j", ",".join(jobs), "-o", "%t") == "", 150)
+
+    def results(self, project):
+        return list((self.folder / project / "work" / "results").glob("*.programs"))
 
     def assert_same_jobs(self, project):
+        """Those that gather wrote."""
         def jobs(name):
             files = sorted((self.folder / name / "jobs").iterdir())
             return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
-        self.program("gather", project)
         self.assertGreaterEqual(len(jobs("whole.qch")), 4)
         self.assertEqual(jobs(project), jobs("whole.qch"))
 
     def test_a_worker_that_is_killed_is_submitted_again(self):
-        script = self.prepared("killed.qch")
-        job = self.submitted(script)
+        self.prepared("killed.qch")
+        jobs = self.submitted("killed.qch")
         wait_until("a worker", lambda: self.workers("killed.qch"), 60)
         os.kill(self.workers("killed.qch")[0], signal.SIGKILL)
-        self.ended(job)
-        results = list((self.folder / "killed.qch" / "work" / "results").glob("*.programs"))
-        self.assertEqual(len(results), 1, "the other went on")
-        self.ended(self.submitted(script))
+        self.wait_for(jobs)
+        self.assertEqual(len(self.results("killed.qch")), 1, "the other went on")
+        said = (self.folder / "killed.qch" / "work" / "gather.log").read_text()
+        self.assertIn("no whole result of 1 piece", said)
+        self.wait_for(self.submitted("killed.qch"))
+        self.assertRegex((self.folder / "killed.qch" / "work" / "slurm.sh").read_text(), r"--array=\d --cpus")
         self.assert_same_jobs("killed.qch")
+        self.assertIn("every result is there", self.submit("killed.qch").stderr)
 
     def test_a_task_is_requeued_and_a_node_restarted(self):
-        script = self.prepared("requeued.qch")
-        job = self.submitted(script)
+        self.prepared("requeued.qch")
+        jobs = self.submitted("requeued.qch")
         wait_until("a worker", lambda: self.workers("requeued.qch"), 60)
-        self.asked("scontrol", "requeue", f"{job}_0")
+        self.asked("scontrol", "requeue", f"{jobs[0]}_0")
         node = self.daemons[-1]
         node.kill()
         node.wait()
         self.start("slurmd", "-D", "-f", self.folder / "slurm.conf", "-N", "n1")
-        self.ended(job)
+        self.wait_for(jobs)
         self.assert_same_jobs("requeued.qch")
+
+    def test_what_slurm_refuses_is_told_and_nothing_is_submitted(self):
+        self.prepared("refused.qch")
+        said = self.submit("refused.qch", "--", "--partition=none")
+        self.assertEqual(said.returncode, 69)
+        self.assertIn("nvalid partition", said.stderr)
+        self.assertEqual(self.asked("squeue", "-h", "-n", "qchopper", "-t", "pending"), "")
 
 
 if __name__ == "__main__":

@@ -136,6 +136,13 @@ struct WorkArguments {
     bool status = false;
 };
 
+struct SubmitArguments {
+    std::filesystem::path project;
+    std::optional<std::size_t> shards;
+    bool is_only_written = false;
+    std::vector<std::string> options;  // of sbatch
+};
+
 struct GatherArguments {
     std::filesystem::path project;
     bool make_missing = false;
@@ -213,8 +220,9 @@ struct Arguments {
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 CellsReachArguments, SetupArguments, WorkArguments, GatherArguments, VerifyArguments, DryRunArguments,
-                 CellSimArguments, DispatchArguments, JournalArguments, CellControlArguments, SchemaArguments>
+                 CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments, GatherArguments, VerifyArguments,
+                 DryRunArguments, CellSimArguments, DispatchArguments, JournalArguments, CellControlArguments,
+                 SchemaArguments>
         command;
 };
 

@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 18> all_examples{{
+constexpr std::array<Examples, 19> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -59,6 +59,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper work vertebra.qch --shard 0/2 &
   qchopper work vertebra.qch --shard 1/2 && wait
   qchopper gather vertebra.qch)"},
+    {"submit", R"(  qchopper submit vertebra.qch
+  qchopper submit vertebra.qch --shards 4 -- --partition=fast --account=bones
+  qchopper submit vertebra.qch --print)"},
     {"gather", R"(  qchopper work vertebra.qch --status
   qchopper gather vertebra.qch
   qchopper gather vertebra.qch --make-missing)"},

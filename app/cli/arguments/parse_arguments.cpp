@@ -92,6 +92,7 @@ struct Parser {
     CellsReachArguments cells_reach;
     SetupArguments setup;
     WorkArguments work;
+    SubmitArguments submit;
     GatherArguments gather;
     VerifyArguments verify;
     DryRunArguments dry_run;
@@ -116,6 +117,7 @@ struct Parser {
         add_cells();
         add_setup();
         add_work();
+        add_submit();
         add_gather();
         add_verify();
         add_dry_run();
@@ -279,6 +281,19 @@ struct Parser {
                 ->check(read_by(shard_from, "no I/N with I from 0 to N - 1"));
         c->add_flag("--status", work.status, "show what is made, and make nothing")->excludes(shard);
         add_common(c, common, [this] { common.command = work; });
+    }
+
+    void add_submit() {
+        CLI::App* c = app.add_subcommand(
+            "submit",
+            "hand the items of a project to Slurm: an array of work, and gather after it; again, what is missing");
+        add_project(c, submit.project);
+        c->add_option("--shards", submit.shards,
+                      "tasks of the array (by the estimated time, a quarter of an hour each)")
+            ->check(CLI::Range(std::size_t{1}, std::size_t{1000}));
+        c->add_flag("--print", submit.is_only_written, "only write NAME.qch/work/slurm.sh");
+        c->add_option("OPTIONS", submit.options, "after --: options of sbatch, such as -- --partition=fast");
+        add_common(c, common, [this] { common.command = submit; });
     }
 
     void add_gather() {

@@ -120,6 +120,23 @@ TEST_F(ShardedWork, IsRefusedWhereItCannotBeDone) {
     }
 }
 
+TEST_F(ShardedWork, AreHandedToSlurmByAScript) {
+    prepare("p.qch", {"--items"});
+    const std::string path = ::getenv("PATH");
+    ::setenv("PATH", folder.path.c_str(), 1);
+    const Ended none = run({"submit", "p.qch"});
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(none.code, exit_unreachable);
+    EXPECT_NE(none.err.find("scontrol is not installed here"), std::string::npos) << none.err;
+    EXPECT_EQ(run({"submit", "p.qch", "--shards", "2", "--print"}).code, 0);
+    const std::string script = program::bytes_in(folder.path / "p.qch" / "work" / "slurm.sh");
+    for (const char* part : {"#!/bin/sh\n", "--array=0,1 ", " --mem=1000M --time=10\n", "$SLURM_ARRAY_TASK_ID/2\"\n"}) {
+        EXPECT_NE(script.find(part), std::string::npos) << part << " in " << script;
+    }
+    EXPECT_EQ(run({"submit", "p.qch", "--shards", "0"}).code, exit_use);
+    EXPECT_EQ(run({"submit", "none.qch"}).code, exit_missing);
+}
+
 TEST_F(ShardedWork, ADecisionRemovesItems) {
     prepare("p.qch", {"--items"});
     EXPECT_TRUE(fs::exists(folder.path / "p.qch" / "work" / "items"));

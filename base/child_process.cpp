@@ -1,0 +1,114 @@
+// posix_spawnp with a pipe for each output; both are read until they are closed or the time is over.
+
+#include "base/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+
+extern char** environ;
+
+namespace qchopper {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int not_found = 127;
+constexpr int killed = 128;
+
+[[noreturn]] void fail(int error, const char* what) {
+    throw std::system_error(error, std::generic_category(), what);
+}
+
+class Pipe {
+ public:
+    Pipe() {
+        if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail(errno, "pipe");
+    }
+    ~Pipe() {
+        close(0);
+        close(1);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    int end(std::size_t which) const { return ends_[which]; }
+    void close(std::size_t which) {
+        if (ends_[which] >= 0) ::close(ends_[which]);
+        ends_[which] = -1;
+    }
+
+ private:
+    std::array<int, 2> ends_{-1, -1};
+};
+
+class FileActions {
+ public:
+    FileActions() { ::posix_spawn_file_actions_init(&actions_); }
+    ~FileActions() { ::posix_spawn_file_actions_destroy(&actions_); }
+    FileActions(const FileActions&) = delete;
+    FileActions& operator=(const FileActions&) = delete;
+    posix_spawn_file_actions_t* get() { return &actions_; }
+
+ private:
+    posix_spawn_file_actions_t actions_{};
+};
+
+// Whether more may come.
+bool read_some(Pipe& pipe, std::string& text) {
+    std::array<char, 4096> buffer{};
+    const ssize_t count = ::read(pipe.end(0), buffer.data(), buffer.size());
+    if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (count > 0 || (count < 0 && errno == EINTR)) return true;
+    pipe.close(0);
+    return false;
+}
+
+}  // namespace
+
+ChildOutput run_child(const std::vector<std::string>& words, std::chrono::milliseconds limit) {
+    assert(!words.empty());
+    std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    Pipe out;
+    Pipe err;
+    FileActions actions;
+    ::posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(actions.get(), out.end(1), STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(actions.get(), err.end(1), STDERR_FILENO);
+    pid_t child = 0;
+    const int error = ::posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(), environ);
+    if (error == ENOENT || error == EACCES) return {not_found, {}, {}};
+    if (error != 0) fail(error, words[0].c_str());
+    out.close(1);
+    err.close(1);
+    ChildOutput output;
+    const Clock::time_point end = Clock::now() + limit;
+    bool is_open = true;
+    while (is_open) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+        if (left <= 0) break;
+        std::array<pollfd, 2> watched{{{out.end(0), POLLIN, 0}, {err.end(0), POLLIN, 0}}};
+        if (::poll(watched.data(), watched.size(), static_cast<int>(left)) <= 0) continue;
+        if (watched[0].revents != 0) read_some(out, output.out);
+        if (watched[1].revents != 0) read_some(err, output.err);
+        is_open = out.end(0) >= 0 || err.end(0) >= 0;
+    }
+    if (is_open) ::kill(child, SIGKILL);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    output.code = WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
+    return output;
+}
+
+}  // namespace qchopper

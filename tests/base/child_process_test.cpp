@@ -1,0 +1,41 @@
+#include "base/child_process.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace qchopper {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(ChildProcess, SaysBothOutputsAndItsCode) {
+    const ChildOutput said = run_child({"sh", "-c", "echo one; echo two >&2; exit 7"}, 10s);
+    EXPECT_EQ(said.code, 7);
+    EXPECT_EQ(said.out, "one\n");
+    EXPECT_EQ(said.err, "two\n");
+}
+
+TEST(ChildProcess, MayBeLongAndGetsNoInput) {
+    const ChildOutput said = run_child({"sh", "-c", "cat; seq 1 100000; seq 1 100000 >&2"}, 30s);
+    EXPECT_EQ(said.code, 0);
+    EXPECT_EQ(said.out, said.err);
+    EXPECT_EQ(said.out.size(), 588'895U);
+}
+
+TEST(ChildProcess, WordsAreGivenAsTheyAre) {
+    EXPECT_EQ(run_child({"printf", "%s|", "a b", "", "$HOME;'"}, 10s).out, "a b||$HOME;'|");
+}
+
+TEST(ChildProcess, ThatIsNotThereIs127) {
+    EXPECT_EQ(run_child({"no-such-program-of-qchopper"}, 10s).code, 127);
+}
+
+TEST(ChildProcess, IsKilledAfterItsTime) {
+    const ChildOutput said = run_child({"sh", "-c", "echo begun; exec sleep 60"}, 300ms);
+    EXPECT_EQ(said.code, 128 + SIGKILL);
+    EXPECT_EQ(said.out, "begun\n");
+}
+
+}  // namespace
+}  // namespace qchopper
