@@ -8,6 +8,27 @@
 
 namespace qchopper {
 
+namespace {
+
+// Whether the arm cannot follow the toolpath of a piece that only long tools reach, in a project whose pieces are cut
+// for size; with a message per piece. The next search cuts them (Setups::is_machinable). Once per piece, and not of one
+// whose orientations a decision limits.
+bool refuses_long_tools(OpenProject& project, const PreparedProject& prepared, const Context& context) {
+    if (!project.project().settings.stop.fits_cell) return false;
+    bool is_any = false;
+    for (std::size_t i = 0; i < prepared.pieces.size(); ++i) {
+        const PieceReport& piece = prepared.pieces[i];
+        const bool is_limited = committed_setup_order(project.project().history, piece.name).max_directions.has_value();
+        if (!piece.is_machine_refusing || is_limited) continue;
+        if (!project.setups()->refuse_with_long_tools(project.segmentation().pieces[i])) continue;
+        is_any = true;
+        context.message("piece " + piece.name + ": " + piece.no_program_because + "; it is cut for shorter tools");
+    }
+    return is_any;
+}
+
+}  // namespace
+
 LoopResult run_loop(OpenProject& project, const LoopOptions& options, const LoopObserver& observer,
                     const Context& context) {
     const auto decided_in = [&](LoopStep step) {
@@ -32,7 +53,17 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
             return project.write_outputs(result.end, options.program_version, observer, context);
         };
         result.prepared = write();
-        while (take_fewer_orientations(project, *result.prepared, context)) result.prepared = write();
+        for (bool is_changed = true; is_changed;) {
+            is_changed = false;
+            if (refuses_long_tools(project, *result.prepared, context)) {
+                result.end =
+                    project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
+                is_changed = true;
+            } else if (take_fewer_orientations(project, *result.prepared, context)) {
+                is_changed = true;
+            }
+            if (is_changed) result.prepared = write();
+        }
     }
     return result;
 }

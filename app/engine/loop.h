@@ -54,9 +54,9 @@ struct LoopResult {
 LoopResult run_loop(OpenProject& project, const LoopOptions& options, const LoopObserver& observer,
                     const Context& context);
 
-// Where the arm cannot follow the toolpath of a piece: decides that the piece is milled from one orientation less than
-// it was, as an operator can by `setup --orientations`, with a message; undo takes it back. Whether a piece was
-// decided about; its job is to be written again. Nothing of a piece that has one orientation.
+// Where the arm cannot follow the toolpath of another piece, or one that was not cut: decides that the piece is milled
+// from one orientation less than it was, as an operator can by `setup --orientations`, with a message; undo takes it
+// back. Whether a piece was decided about; its job is to be written again. Nothing of a piece that has one orientation.
 bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context);
 
 // For LoopObserver::on_decision: says what is kept of the cuts and, followed by `go_on`, how to go on with them, for

@@ -21,6 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+WorkItem read_item(const fs::path& file, const std::string& program_version) {
+    return item_from(read_file(file), file, program_version);
+}
+
 fs::path items_folder(const fs::path& project) {
     return project / "work" / "items";
 }

@@ -43,7 +43,7 @@ WrittenItems write_items(OpenProject& project, const std::string& program_versio
 
 // Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
 // results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a
-// time. Throws InputError (missing) if there is no item, what read_item throws, Cancelled.
+// time. Throws InputError (missing) if there is no item, what read_file and item_from() throw, Cancelled.
 WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const Shard& shard,
                       const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
                       const ProjectContext& context);

@@ -195,6 +195,15 @@ bool Setups::is_machinable(const Piece& piece) {
     return once(stages_of(piece).is_machinable, [&] { return find_whether_machinable(piece); });
 }
 
+bool Setups::refuse_with_long_tools(const Piece& piece) {
+    const std::vector<ToolNumbers> sets = tool_sets_for(piece);
+    if (sets.size() == 1 || placed(piece).setup().tools == sets.front()) return false;
+    Stages& stages = stages_of(piece);
+    if (std::exchange(stages.is_refused, true)) return false;
+    stages.is_machinable = false;
+    return true;
+}
+
 bool Setups::find_whether_machinable(const Piece& piece) {
     if (!cell_.machine) return true;
     const Vec3 size = oriented_box(piece.mesh->points).size();

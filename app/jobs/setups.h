@@ -87,6 +87,9 @@ class Setups {
     // higher than the longest tool, or hardly any more of the surface is out of reach than without holder. A piece that
     // is shorter than that tool always is, because cutting it further is no remedy. True in a cell without a machine.
     bool is_machinable(const Piece& piece);
+    // From now on it is not, because the arm does not follow the toolpath of a piece that only long tools reach (the
+    // shortest set of tools is not that of its setup). False where that is known, and for any other piece.
+    bool refuse_with_long_tools(const Piece& piece);
     // By the setup that its job is made of, placed().
     UnreachableSurface left_by_setup(const Piece& piece);
     // Of cuts that make surface reachable: a square of two diameters of the finest tool, within which it cannot tell
@@ -103,6 +106,7 @@ class Setups {
         std::optional<PlacedSetup> placed;
         std::string name;  // of the piece
         std::optional<bool> is_machinable;
+        bool is_refused = false;  // refuse_with_long_tools()
     };
     Stages& stages_of(const Piece& piece);
     template <class Stage, class Make>

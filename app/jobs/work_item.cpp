@@ -219,10 +219,6 @@ WorkItem item_from(const Bytes& bytes, const fs::path& source, const std::string
     }
 }
 
-WorkItem read_item(const fs::path& file, const std::string& program_version) {
-    return item_from(read_file(file), file, program_version);
-}
-
 std::optional<WorkedPiece> result_of(const WorkItem& item, const fs::path& results) {
     const std::optional<PiecePrograms> kept = kept_programs(results / item.result, source_of(item));
     if (!kept) return std::nullopt;

@@ -51,8 +51,6 @@ Bytes to_bytes(const WorkItem& item);
 // Throws InputError (mesh) naming `source` if the bytes are no item, cut short or damaged, or of another build than
 // `program_version` (tests/fuzz/fuzz_item.cpp). O(bytes).
 WorkItem item_from(const Bytes& bytes, const std::filesystem::path& source, const std::string& program_version);
-// The same of a file. Also throws InputError (missing, io) if it cannot be read.
-WorkItem read_item(const std::filesystem::path& file, const std::string& program_version);
 
 // Makes the programs of an item and keeps them in the folder of results, unless a whole result is there. Two processes
 // may work on one item at once. Throws Cancelled; std::logic_error if a result that came meanwhile has other bytes:

@@ -101,6 +101,21 @@ TEST(Setups, TakeTheShorterOfTwoToolsOfAKindUnlessThatReachesTooLittle) {
     EXPECT_TRUE(setups.placed(frame(100)).setup().access == without.placed(frame(100)).setup().access);
 }
 
+// Of a piece that only long tools reach, and whose toolpath the arm does not follow.
+TEST(Setups, APieceThatIsRefusedWithLongToolsIsCutAgain) {
+    Setups setups(cell_named("kr120-r2500-pro-rotary"));
+    const Piece deep = frame(270);
+    const Piece flat = frame(100);
+    EXPECT_TRUE(setups.is_machinable(deep));
+    EXPECT_TRUE(setups.refuse_with_long_tools(deep));
+    EXPECT_FALSE(setups.is_machinable(deep));
+    EXPECT_FALSE(setups.refuse_with_long_tools(deep)) << "once";
+    EXPECT_FALSE(setups.refuse_with_long_tools(flat)) << "short tools mill it";
+    EXPECT_TRUE(setups.is_machinable(flat));
+    Setups without(with_short_tools(cell_named("kr120-r2500-pro-rotary")));
+    EXPECT_FALSE(without.refuse_with_long_tools(deep)) << "there are no shorter ones";
+}
+
 TEST(Setups, ACellWithoutAMachineKnowsNoToolAndMillsWhatFits) {
     Setups setups(cell_named("foam-1"));
     EXPECT_TRUE(setups.is_machinable(frame(400)));
