@@ -29,6 +29,24 @@ constexpr const char* mark = "qchopper item 1";
                      "write the items again: qchopper prepare NAME.qch --items");
 }
 
+// A manifest says of every hole who drills it, and of an item nobody has said so yet: this stands in for it.
+constexpr const char* undecided = "it is not decided";
+
+void replace_reason(JobInput& job, const std::string& from, const std::string& to) {
+    for (DrawnCap& drawn : job.caps) {
+        for (CapJoint& joint : drawn.cap.joints) {
+            for (JobHole& hole : joint.holes) {
+                if (!hole.by_robot && hole.by_hand == from) hole.by_hand = to;
+            }
+        }
+    }
+}
+
+std::string manifest_of(JobInput job) {
+    replace_reason(job, "", undecided);
+    return to_manifest(job, {});
+}
+
 std::uint8_t below(CacheReader& in, std::uint8_t count, const fs::path& file) {
     const auto value = in.get<std::uint8_t>();
     if (value >= count) refuse(file, "is damaged");
@@ -124,6 +142,7 @@ JobInput job_from(const ReadJob& read, TriangleMesh mesh, const Cell& cell) {
     job.stock_fit = read.stock_fit;
     job.max_unreachable = read.max_unreachable;
     for (const JobCap& cap : read.caps) job.caps.push_back({cap, {}, {}, {}});
+    replace_reason(job, undecided, "");
     return job;
 }
 
@@ -153,7 +172,7 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
     item.job.machine_reachability = reachability_from(in, item.job.setup, file);
     const bool is_name = fs::path(item.result).filename() == item.result && !item.result.empty();
     if (!in.is_whole() || !is_name || !is_mesh(*item.job.piece.mesh)) refuse(file, "is damaged");
-    if (to_manifest(item.job, {}) != manifest) refuse(file, "does not hold what its manifest says");
+    if (manifest_of(item.job) != manifest) refuse(file, "does not hold what its manifest says");
     item.piece_setup.choice.setups = {item.job.setup};
     item.piece_setup.stock_fit = item.job.stock_fit;
     item.piece_setup.machine_reachability = item.job.machine_reachability;
@@ -192,7 +211,7 @@ Bytes to_bytes(const WorkItem& item) {
     CacheWriter out;
     out.put(std::string(mark));
     out.put(item.job.program_version);
-    out.put(to_manifest(item.job, {}));
+    out.put(manifest_of(item.job));
     out.put(static_cast<std::uint8_t>(item.fine));
     out.put(item.result);
     out.put(item.effort);
