@@ -110,7 +110,7 @@ SlurmAnswer submit(const fs::path& file, const fs::path& project, const std::str
     for (const auto& words : {std::vector<std::string>{"scontrol", "ping"}, sbatch({"--test-only", file}, options)}) {
         if (SlurmAnswer answer = ask(words); !answer.fault.empty()) return answer;
     }
-    const SlurmAnswer array = ask(sbatch({"--parsable", file}, options));
+    SlurmAnswer array = ask(sbatch({"--parsable", file}, options));
     if (!array.fault.empty()) return array;
     const std::string gather = "exec " + shell_word(program) + " gather " + shell_word(project);
     const SlurmAnswer after =

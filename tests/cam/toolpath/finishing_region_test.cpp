@@ -204,8 +204,9 @@ TEST(FloorBand, EndsAtASawnFace) {
         std::size_t beyond = 0;
         for (std::size_t i = 0; i < region.size(); ++i) {
             if (region[i] == not_finished) continue;
+            const std::size_t row = i / target.columns;
             const double x = cell * (static_cast<double>(i % target.columns) + 0.5);
-            const double y = cell * (static_cast<double>(i / target.columns) + 0.5);
+            const double y = cell * (static_cast<double>(row) + 0.5);
             ++(field_to_setup(setup, target, {x, y, 0}).x > setup.box.max.x ? beyond : beside);
         }
         EXPECT_GT(beside, 1000U);
