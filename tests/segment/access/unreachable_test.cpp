@@ -308,5 +308,17 @@ TEST(Unreachable, ASmallCapIsNoBase) {
     EXPECT_NEAR(of_tip.area_mm2, area_mm2(*tip.piece.mesh) - 4, 0.2 * area_mm2(*tip.piece.mesh));
 }
 
+TEST(SawnCaps, AreNoSurfaceThatAToolHasToReach) {
+    const OwnedCap under{2, {0, 0, -1}, 100};
+    const TiltBase milled{{0, 0, 1}, 1, {}};
+    const TiltBase sawn{{0, 0, 1}, 1, {2}};
+    const std::vector<Vec3> from_above{{0, 0, 1}};
+    EXPECT_TRUE(counts_as_surface(under, milled));
+    EXPECT_TRUE(is_out_of_reach(under, milled, from_above));
+    EXPECT_FALSE(counts_as_surface(under, sawn));
+    EXPECT_FALSE(is_out_of_reach(under, sawn, from_above));
+    EXPECT_FALSE(counts_as_surface({1, {0, 0, -1}, 100}, milled)) << "the base";
+}
+
 }  // namespace
 }  // namespace qchopper
