@@ -135,10 +135,12 @@ class OperationHolder {
             const SampledPath path = sampled_path(rest);
             ReachablePath longest = search_.longest(rest, path, MarginsOf::setup);
             if (longest.runs == 0 && divide(first, path, longest)) continue;
+            const ReachablePath within_margins = longest;
             if (longest.runs == 0) longest = search_.longest(rest, path, MarginsOf::path);
             if (longest.runs == 0) {
                 refusal_ = search_.refusal();
-                if (leave_out(first, path, longest)) continue;
+                // What ends behind the last cut leaves none out; with the other margins it ends before.
+                if (leave_out(first, path, longest) || leave_out(first, path, within_margins)) continue;
                 throw ProgramRefused(
                     where + ", run " + std::to_string(first + 1) + ": no arm posture reaches it: " + refusal_,
                     "place the block otherwise, or take other tool orientations",
