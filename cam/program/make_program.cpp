@@ -133,14 +133,10 @@ class OperationHolder {
             context_.check_cancelled();
             const std::span<const PathRun> rest = section_from(first);
             const SampledPath path = sampled_path(rest);
-            ReachablePath longest = search_.longest(rest, path, MarginsOf::setup);
-            if (longest.runs == 0 && divide(first, path, longest)) continue;
-            const ReachablePath within_margins = longest;
-            if (longest.runs == 0) longest = search_.longest(rest, path, MarginsOf::path);
+            const ReachablePath longest = search_.longest(rest, path);
             if (longest.runs == 0) {
                 refusal_ = search_.refusal();
-                // What ends behind the last cut leaves none out; with the other margins it ends before.
-                if (leave_out(first, path, longest) || leave_out(first, path, within_margins)) continue;
+                if (divide(first, path, longest) || leave_out(first, path, longest)) continue;
                 throw ProgramRefused(
                     where + ", run " + std::to_string(first + 1) + ": no arm posture reaches it: " + refusal_,
                     "place the block otherwise, or take other tool orientations",
@@ -173,7 +169,7 @@ class OperationHolder {
             auto [head, tail] = split_run(run, count, search_.tool_axis(), operation_.retract);
             const std::vector<PathRun> alone{head};
             const SampledPath head_path = sampled_path(alone);
-            if (search_.longest(alone, head_path, MarginsOf::setup).runs == 0) continue;
+            if (search_.longest(alone, head_path).runs == 0) continue;
             runs_[at] = std::move(head);
             runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::move(tail));
             return true;
@@ -229,7 +225,7 @@ class OperationHolder {
     bool begins_held(const PathRun& run) {
         const std::vector<PathRun> alone{run};
         const SampledPath path = sampled_path(alone);
-        return has_cut(run, moves_within(run, path, search_.longest(alone, path, MarginsOf::path).poses));
+        return has_cut(run, moves_within(run, path, search_.longest(alone, path).poses));
     }
 
     static bool has_cut(const PathRun& run, std::size_t count) {

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/units.h"
 #include "cam/cell/reach_map.h"
 #include "cam/setup/placement/place_score.h"
 
@@ -100,11 +99,10 @@ PostureSearch::PostureSearch(const Setup& setup, const MachineReachability& reac
 std::size_t PostureSearch::within_turns(const ArmPosture& posture, std::size_t poses) const {
     const CellMachine& machine = *cell_.machine;
     const ToolArm arm = tool_arm(*machine.robot, machine.spindle, slow_tool_);
-    const double margin = radians(needed(rule_of(PoseCheck::joint_limit), margins_));
     std::size_t reachable = poses;
     for (const std::size_t axis : {std::size_t{3}, std::size_t{5}}) {
-        const double low = arm.ranges[axis].min + margin;
-        const double high = arm.ranges[axis].max - margin;
+        const double low = arm.ranges[axis].min + arm.margin;
+        const double high = arm.ranges[axis].max - arm.margin;
         const bool is_free = axis == 5 && posture.turns_freely;
         double min = std::numeric_limits<double>::infinity();
         double max = -min;
@@ -120,7 +118,7 @@ std::size_t PostureSearch::within_turns(const ArmPosture& posture, std::size_t p
 }
 
 std::size_t PostureSearch::reachable_poses(const PoseRegion& region, ArmPosture& posture) {
-    MarginTally tally(false, margins_);
+    MarginTally tally(false);
     judge_.judge(standing_, tool_axis_, region, region.poses.size(), posture, -rounding, tally);
     if (tally.score() >= -rounding) return region.poses.size() - 1;
     if (judge_.is_gantry()) return tally.worst_pose();
@@ -165,8 +163,7 @@ ReachablePath PostureSearch::final_path(std::span<const PathRun> runs, const Sam
     return reachable;
 }
 
-ReachablePath PostureSearch::longest(std::span<const PathRun> runs, const SampledPath& path, MarginsOf margins) {
-    margins_ = margins;
+ReachablePath PostureSearch::longest(std::span<const PathRun> runs, const SampledPath& path) {
     const PoseRegion extremes = extreme_poses(path);
     ReachablePath best;
     for (const bool is_second_round : {false, true}) {
@@ -187,7 +184,7 @@ ReachablePath PostureSearch::longest(std::span<const PathRun> runs, const Sample
         }
     }
     ArmPosture posture = best.posture;
-    MarginTally tally(true, margins_);
+    MarginTally tally;
     judge_.judge(standing_, tool_axis_, path.region, std::min(best.poses + 1, path.region.poses.size()), posture,
                  -rounding, tally);
     describe_refusal(tally, path.region);

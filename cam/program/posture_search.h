@@ -40,7 +40,7 @@ class PostureSearch {
 
     // By the posture that carries most runs from the first on: the first one that carries all of them, beginning with
     // those of the envelope. The path is that of the runs.
-    ReachablePath longest(std::span<const PathRun> runs, const SampledPath& path, MarginsOf margins);
+    ReachablePath longest(std::span<const PathRun> runs, const SampledPath& path);
 
     // What refuses the pose behind those that the last longest() held: check, pair, margin and pose.
     const std::string& refusal() const { return refusal_; }
@@ -72,7 +72,6 @@ class PostureSearch {
     StandingBlock standing_;
     Vec3 tool_axis_;
     std::vector<ArmPosture> candidates_;
-    MarginsOf margins_ = MarginsOf::setup;
     std::string refusal_;
 };
 

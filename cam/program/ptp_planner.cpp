@@ -58,7 +58,7 @@ StandingBlock PtpPlanner::standing_at(double table_angle) const {
 }
 
 bool PtpPlanner::is_clear(const StandingBlock& block, const Joints& joints) {
-    MarginTally tally(true, MarginsOf::path);
+    MarginTally tally;
     judge_.judge_joints(block, joints, tally);
     if (tally.score() >= -rounding) return true;
     for (std::size_t i = 0; i < pose_checks; ++i) {
@@ -88,7 +88,7 @@ std::optional<Joints> PtpPlanner::retracted(const OperationEnd& end, double retr
     const std::vector<PathRun> runs{{end.tip, {{end.tip + retract * operation.tool_axis, MoveKind::retract, false}}}};
     const SampledPath path = sampled_path(runs);
     ArmPosture posture{operation.configuration, operation.redundancy_angle, false};
-    MarginTally tally(false, MarginsOf::path);
+    MarginTally tally(false);
     const StandingBlock block = standing_at(operation.table_angle);
     judge_.judge(block, operation.tool_axis, path.region, path.region.poses.size(), posture, -rounding, tally);
     if (tally.score() < -rounding) return std::nullopt;
@@ -97,12 +97,11 @@ std::optional<Joints> PtpPlanner::retracted(const OperationEnd& end, double retr
         const double length = norm(path.region.poses[i].tip - path.region.poses[i - 1].tip);
         speed = std::min(speed, followed_speed(arm.ranges, *judge_.joints()[i - 1], *judge_.joints()[i], length));
     }
-    const double margin = radians(needed(rule_of(PoseCheck::joint_limit), MarginsOf::path));
     Joints joints = *judge_.joints().back();
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         joints[axis] += full_turn * std::nearbyint((end.joints[axis] - (*judge_.joints().front())[axis]) / full_turn);
     }
-    if (!is_within(arm.ranges, margin, joints)) return std::nullopt;
+    if (!is_within(arm.ranges, arm.margin, joints)) return std::nullopt;
     return joints;
 }
 

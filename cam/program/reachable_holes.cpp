@@ -53,7 +53,7 @@ std::string refusal_of(const PathRun& run, const Operation& operation, const Set
                        const MachineReachability& reachability, const Cell& cell) {
     PostureSearch search(setup, reachability, cell, operation);
     const std::vector<PathRun> alone{run};
-    return search.longest(alone, sampled_path(alone), MarginsOf::path).runs == 1 ? std::string() : search.refusal();
+    return search.longest(alone, sampled_path(alone)).runs == 1 ? std::string() : search.refusal();
 }
 
 std::size_t count_reachable(const Drilling& drilling, std::size_t orientation, const Setup& setup,

@@ -60,7 +60,6 @@ struct CheckRule {
     const char* name;  // "joint limit"
     const char* unit;  // "mm", "deg", "deg/s" or "%"
     double needed;     // of what is measured, in the unit; the margin is what is left beyond
-    double on_path;    // the same where a program goes between the poses of a setup: half of what protects the machine
     double scale;      // a margin of so much counts as 1 when margins of several checks are compared
     bool is_placed;    // whether another place of the block can change it; the others are not maximised
 };

@@ -18,33 +18,29 @@ const char* word(std::uint16_t part) {
 
 // In whole steps, so that margins which are equal but for their last digits, as those of mirrored poses are, are ties
 // on every machine: those digits depend on whether sines are computed with fused operations.
-double relative_margin(const CheckRule& rule, MarginsOf of, double measured) {
-    return std::round((measured - needed(rule, of)) / rule.scale / rounding) * rounding;
+double relative_margin(const CheckRule& rule, double measured) {
+    return std::round((measured - rule.needed) / rule.scale / rounding) * rounding;
 }
 
 }  // namespace
 
-double needed(const CheckRule& rule, MarginsOf of) {
-    return of == MarginsOf::setup ? rule.needed : rule.on_path;
-}
-
 bool MarginTally::wants(PoseCheck check, double least) const {
     const CheckRule& rule = rule_of(check);
-    const double relative = relative_margin(rule, of_, least);
+    const double relative = relative_margin(rule, least);
     if (keeps_all_) return relative < of(check).relative;
     return relative < (rule.is_placed ? score_ : -rounding);
 }
 
 void MarginTally::add(PoseCheck check, double measured, MarginPair pair) {
     const CheckRule& rule = rule_of(check);
-    const double relative = relative_margin(rule, of_, measured);
+    const double relative = relative_margin(rule, measured);
     const bool is_new_refusal = !rule.is_placed && relative < -rounding && !is_refused_;
     if (is_new_refusal) is_refused_ = true;
     if (is_new_refusal || (rule.is_placed && relative < score_)) worst_pose_ = pose_;
     if (rule.is_placed) score_ = std::min(score_, relative);
     TightestMargin& kept = tightest_[static_cast<std::size_t>(check)];
     if (!(relative < kept.relative)) return;
-    kept = {measured - needed(rule, of_), relative, pair, pose_};
+    kept = {measured - rule.needed, relative, pair, pose_};
 }
 
 std::string describe_pair(const Cell& cell, PoseCheck check, MarginPair pair) {

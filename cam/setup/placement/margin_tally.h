@@ -29,15 +29,11 @@ struct TightestMargin {
     std::size_t pose = 0;  // index in its region
 };
 
-// What margins are taken from: CheckRule::needed for the poses of a setup, CheckRule::on_path for those of a program.
-enum class MarginsOf : std::uint8_t { setup, path };
-double needed(const CheckRule& rule, MarginsOf of);
-
 // The tightest margin of every check over some poses.
 class MarginTally {
  public:
     // With `keeps_all` the tightest of every check is exact; else only the least of all.
-    explicit MarginTally(bool keeps_all = true, MarginsOf of = MarginsOf::setup) : keeps_all_(keeps_all), of_(of) {}
+    explicit MarginTally(bool keeps_all = true) : keeps_all_(keeps_all) {}
     void set_pose(std::size_t pose) { pose_ = pose; }
     // Whether something measured that is at least `least` could change what is kept.
     bool wants(PoseCheck check, double least) const;
@@ -57,7 +53,6 @@ class MarginTally {
     std::size_t worst_pose_ = 0;
     bool is_refused_ = false;
     bool keeps_all_;
-    MarginsOf of_;
 };
 
 // "link 3 and the block", "axis 5 and its upper limit". Precondition: the cell has a machine.
