@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+#include <thread>
 
 extern char** environ;
 
@@ -103,10 +104,14 @@ ChildOutput run_child(const std::vector<std::string>& words, std::chrono::millis
         if (watched[1].revents != 0) read_some(err, output.err);
         is_open = out.end(0) >= 0 || err.end(0) >= 0;
     }
-    if (is_open) ::kill(child, SIGKILL);
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    pid_t ended = is_open ? 0 : ::waitpid(child, &status, WNOHANG);
+    while (ended == 0 && Clock::now() < end) {  // it may go on without its outputs
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ended = ::waitpid(child, &status, WNOHANG);
     }
+    if (ended == 0) ::kill(child, SIGKILL);
+    while (ended == 0 || (ended < 0 && errno == EINTR)) ended = ::waitpid(child, &status, 0);
     output.code = WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
     return output;
 }

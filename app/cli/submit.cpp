@@ -74,9 +74,9 @@ std::string script(const ArrayJob& job, const fs::path& project, const std::stri
            numbers(job.tasks) + " --cpus-per-task=1 --mem=" + fixed(job.megabytes, 0) +
            "M --time=" + fixed(job.minutes, 0) +
            "\n"
-           "#SBATCH --requeue --open-mode=append --output=" +
+           "#SBATCH --requeue --open-mode=append --output=\"" +
            (project / "work" / "slurm-%a.log").string() +
-           "\n"
+           "\"\n"
            "exec " +
            shell_word(program) + " work " + shell_word(project) +
            " --threads \"$SLURM_CPUS_PER_TASK\" --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(job.shards) + "\"\n";

@@ -22,8 +22,8 @@ int run(const WorkArguments& a, Terminal& terminal) {
     for (const std::filesystem::path& input : a.inputs) inputs.push_back(without_slash(input));
     const Shard shard = a.shard ? *shard_from(*a.shard) : Shard{};
     const auto tell = [&](const WorkedPiece& piece) { terminal.message(worked_line(piece)); };
-    const WorkAnswer answer = a.status ? work_done(inputs.front(), version())
-                                       : work_items(inputs, shard, version(), tell, terminal.context());
+    const WorkAnswer answer =
+        a.status ? work_done(inputs, version()) : work_items(inputs, shard, version(), tell, terminal.context());
     terminal.show(lines(answer), document(answer));
     return exit_done;
 }

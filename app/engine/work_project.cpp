@@ -61,6 +61,11 @@ std::vector<fs::path> items_of_inputs(const std::vector<fs::path>& inputs) {
     return items;
 }
 
+// The project that all items are of; empty: of several, or of none.
+fs::path project_of(const std::vector<fs::path>& inputs) {
+    return inputs.size() == 1 && inputs.front().extension() != item_ending ? inputs.front() : fs::path();
+}
+
 }  // namespace
 
 std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> efforts) {
@@ -108,7 +113,7 @@ WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, c
     for (const fs::path& item : items) efforts.push_back(read_item(item, program_version).effort);
     const std::vector<std::size_t> own = items_of(shard, efforts);
     context.saved("Programs that are made are kept, and the same command makes the rest.");
-    WorkAnswer answer{inputs.front().extension() == item_ending ? fs::path() : inputs.front(), shard, items.size(), {}};
+    WorkAnswer answer{project_of(inputs), shard, items.size(), {}};
     answer.pieces.resize(own.size());
     SharedProgress progress(context, "programs made", own.size());
     std::mutex telling;
@@ -149,9 +154,9 @@ std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::stri
     return estimates;
 }
 
-WorkAnswer work_done(const fs::path& folder, const std::string& program_version) {
-    const std::vector<fs::path> items = items_in(folder);
-    WorkAnswer answer{folder, {}, items.size(), {}};
+WorkAnswer work_done(const std::vector<fs::path>& inputs, const std::string& program_version) {
+    const std::vector<fs::path> items = items_of_inputs(inputs);
+    WorkAnswer answer{project_of(inputs), {}, items.size(), {}};
     for (const fs::path& file : items) {
         const auto result = result_of(read_item(file, program_version), results_of(file));
         if (result) answer.pieces.push_back(*result);

@@ -31,7 +31,7 @@ struct Shard {
 std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> efforts);
 
 struct WorkAnswer {
-    std::filesystem::path folder;  // of the project; empty: single items
+    std::filesystem::path folder;  // of the project; empty: of several, or of none
     Shard shard;
     std::size_t piece_count = 0;      // items in all
     std::vector<WorkedPiece> pieces;  // of the shard, in the order of their names
@@ -59,8 +59,8 @@ struct ItemEstimate {
 // By name. Throws as work_items() does.
 std::vector<ItemEstimate> item_estimates(const std::filesystem::path& folder, const std::string& program_version);
 
-// What the results of a project hold, and nothing is made.
-WorkAnswer work_done(const std::filesystem::path& folder, const std::string& program_version);
+// What the results of these inputs hold, and nothing is made. Throws as work_items() does.
+WorkAnswer work_done(const std::vector<std::filesystem::path>& inputs, const std::string& program_version);
 
 // Checks the results of a project and copies those that are whole into its cache, where prepare finds them. Names of
 // the pieces whose result is missing or damaged. Throws as work_items() does.

@@ -73,11 +73,6 @@ BlockPlacement placement_from(CacheReader& in) {
     return place;
 }
 
-std::string text_from(CacheReader& in) {
-    const std::vector<char> text = in.get_all<char>();
-    return {text.begin(), text.end()};
-}
-
 void put(CacheWriter& out, const ProvenProgram& part) {
     JobProgram program = part.input.program;
     if (program.part.number > 1) program.part.before = Sha256{};  // not known yet; the document asks for one
@@ -100,12 +95,12 @@ void put(CacheWriter& out, const ProvenProgram& part) {
 // Throws std::runtime_error if the bytes are not those of a part.
 ProvenProgram part_from(CacheReader& in) {
     ProvenProgram part;
-    part.input.program = job_program_from_json(text_from(in));
+    part.input.program = job_program_from_json(in.text());
     part.input.program.part.before.reset();
-    part.input.proof = job_verdict_from_json(text_from(in), "a kept verdict");
+    part.input.proof = job_verdict_from_json(in.text(), "a kept verdict");
     for (std::size_t texts = in.count(); texts > 0; --texts) {
-        std::string name = text_from(in);
-        part.input.texts[std::move(name)] = text_from(in);
+        std::string name = in.text();
+        part.input.texts[std::move(name)] = in.text();
     }
     part.input.tools = in.get_all<std::uint16_t>();
     part.input.deviation_picture = in.get_all<std::uint8_t>();
@@ -150,7 +145,7 @@ bool can_be_renumbered(const PiecePrograms& programs, const std::map<std::size_t
 std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource& source) {
     PiecePrograms programs;
     const auto number = in.get<std::uint16_t>();
-    programs.none_because = text_from(in);
+    programs.none_because = in.text();
     programs.is_machine_refusing = in.get<std::uint8_t>() != 0;
     if (in.get<std::uint8_t>() != 0) programs.place = placement_from(in);
     std::vector<std::size_t> drilled;
@@ -158,7 +153,7 @@ std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource&
     for (std::size_t holes = in.count(); holes > 0; --holes) {
         const auto hole = in.get<std::size_t>();
         if (in.get<std::uint8_t>() != 0) drilled.push_back(hole);
-        reasons[hole] = text_from(in);
+        reasons[hole] = in.text();
     }
     programs.caps = decided(source, drilled, reasons);
     for (std::size_t parts = in.count(); parts > 0; --parts) programs.parts.push_back(part_from(in));

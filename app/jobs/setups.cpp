@@ -198,10 +198,7 @@ bool Setups::is_machinable(const Piece& piece) {
 bool Setups::refuse_with_long_tools(const Piece& piece) {
     const std::vector<ToolNumbers> sets = tool_sets_for(piece);
     if (sets.size() == 1 || placed(piece).setup().tools == sets.front()) return false;
-    Stages& stages = stages_of(piece);
-    if (std::exchange(stages.is_refused, true)) return false;
-    stages.is_machinable = false;
-    return true;
+    return std::exchange(stages_of(piece).is_machinable, false) != false;
 }
 
 bool Setups::find_whether_machinable(const Piece& piece) {

@@ -106,7 +106,6 @@ class Setups {
         std::optional<PlacedSetup> placed;
         std::string name;  // of the piece
         std::optional<bool> is_machinable;
-        bool is_refused = false;  // refuse_with_long_tools()
     };
     Stages& stages_of(const Piece& piece);
     template <class Stage, class Make>

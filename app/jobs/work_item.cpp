@@ -114,11 +114,6 @@ void put(CacheWriter& out, const TriangleMesh& mesh) {
     out.put_all(mesh.cap_of);
 }
 
-std::string text_from(CacheReader& in) {
-    const std::vector<char> text = in.get_all<char>();
-    return {text.begin(), text.end()};
-}
-
 // Of a job, what its program depends on, and what names its files.
 JobInput without_others(const JobInput& job) {
     JobInput own = job;
@@ -158,10 +153,10 @@ bool is_mesh(const TriangleMesh& mesh) {
 WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
     constexpr auto fine_tools = static_cast<std::uint8_t>(FineTools::none) + 1;
     WorkItem item;
-    const std::string manifest = text_from(in);
+    const std::string manifest = in.text();
     const ReadJob read = from_manifest(manifest, file.string());
     item.fine = static_cast<FineTools>(below(in, fine_tools, file));
-    item.result = text_from(in);
+    item.result = in.text();
     item.effort = in.get<double>();
     item.cell_file = in.get_all<std::uint8_t>();
     item.cell = parse_cell(std::string(item.cell_file.begin(), item.cell_file.end()), file.string());
@@ -225,8 +220,8 @@ WorkItem item_from(const Bytes& bytes, const fs::path& source, const std::string
     const std::optional<Bytes> content = unsealed(bytes);
     if (!content) refuse(source, "is damaged: its SHA-256 is not that of its content");
     CacheReader in(*content);
-    if (text_from(in) != mark) refuse(source, "is no item of qchopper");
-    const std::string version = text_from(in);
+    if (in.text() != mark) refuse(source, "is no item of qchopper");
+    const std::string version = in.text();
     if (version != program_version) {
         refuse(source, "was written by build " + printable(version) + ", and this is " + program_version);
     }

@@ -83,13 +83,16 @@ std::string worked_line(const WorkedPiece& piece) {
 
 std::vector<std::string> lines(const WorkAnswer& answer) {
     std::vector<std::string> text;
-    text.push_back("Shard " + std::to_string(answer.shard.number) + " of " + std::to_string(answer.shard.count) + ": " +
-                   std::to_string(answer.pieces.size()) + " of " + std::to_string(answer.piece_count) + " pieces, " +
+    const std::string shard =
+        "Shard " + std::to_string(answer.shard.number) + " of " + std::to_string(answer.shard.count) + ": ";
+    text.push_back((answer.shard.count > 1 ? shard : std::string()) + std::to_string(answer.pieces.size()) + " of " +
+                   std::to_string(answer.piece_count) + " pieces are made, " +
                    std::to_string(count_of(answer, ProgramOutcome::proven)) + " proven, " +
                    std::to_string(count_of(answer, ProgramOutcome::refused)) + " refused, " +
                    std::to_string(count_of(answer, ProgramOutcome::none)) + " without programs.");
     if (!answer.folder.empty()) {
-        text.push_back("Next, when all shards are done: qchopper gather " + shell_word(answer.folder));
+        const char* when = answer.pieces.size() < answer.piece_count ? "Next, when all are made" : "Next";
+        text.push_back(std::string(when) + ": qchopper gather " + shell_word(answer.folder));
     }
     return text;
 }

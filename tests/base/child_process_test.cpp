@@ -31,6 +31,10 @@ TEST(ChildProcess, ThatIsNotThereIs127) {
     EXPECT_EQ(run_child({"no-such-program-of-qchopper"}, 10s).code, 127);
 }
 
+TEST(ChildProcess, IsKilledAfterItsTimeWithoutItsOutputsToo) {
+    EXPECT_EQ(run_child({"sh", "-c", "exec sleep 60 >&- 2>&-"}, 300ms).code, 128 + SIGKILL);
+}
+
 TEST(ChildProcess, IsKilledAfterItsTime) {
     const ChildOutput said = run_child({"sh", "-c", "echo begun; exec sleep 60"}, 300ms);
     EXPECT_EQ(said.code, 128 + SIGKILL);

@@ -200,16 +200,16 @@ class Slurm(unittest.TestCase):
         self.assertIn("every result is there", self.submit("killed.qch").stderr)
 
     def test_a_task_is_requeued_and_a_node_restarted(self):
-        self.prepared("requeued.qch")
-        jobs = self.submitted("requeued.qch")
-        wait_until("a worker", lambda: self.workers("requeued.qch"), 60)
+        self.prepared("re queued.qch")
+        jobs = self.submitted("re queued.qch")
+        wait_until("a worker", lambda: self.workers("re queued.qch"), 60)
         self.asked("scontrol", "requeue", f"{jobs[0]}_0")
         node = self.daemons[-1]
         node.kill()
         node.wait()
         self.start("slurmd", "-D", "-f", self.folder / "slurm.conf", "-N", "n1")
         self.wait_for(jobs)
-        self.assert_same_jobs("requeued.qch")
+        self.assert_same_jobs("re queued.qch")
 
     def test_what_slurm_refuses_is_told_and_nothing_is_submitted(self):
         self.prepared("refused.qch")

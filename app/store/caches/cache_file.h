@@ -78,6 +78,10 @@ class CacheReader {
         bytes_ = bytes_.subspan(n * sizeof(T));
         return values;
     }
+    std::string text() {
+        const std::vector<char> characters = get_all<char>();
+        return {characters.begin(), characters.end()};
+    }
     // A count of elements of at least one byte each.
     std::size_t count() {
         const auto n = get<std::size_t>();
