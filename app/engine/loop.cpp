@@ -53,17 +53,14 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
             return project.write_outputs(result.end, options.program_version, observer, context);
         };
         result.prepared = write();
-        for (bool is_changed = true; is_changed;) {
-            is_changed = false;
-            if (refuses_long_tools(project, *result.prepared, context)) {
-                result.end =
-                    project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
-                is_changed = true;
-            } else if (take_fewer_orientations(project, *result.prepared, context)) {
-                is_changed = true;
+        const auto is_changed = [&] {
+            if (!refuses_long_tools(project, *result.prepared, context)) {
+                return take_fewer_orientations(project, *result.prepared, context);
             }
-            if (is_changed) result.prepared = write();
-        }
+            result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
+            return true;
+        };
+        while (is_changed()) result.prepared = write();
     }
     return result;
 }

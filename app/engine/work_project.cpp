@@ -30,7 +30,7 @@ fs::path items_folder(const fs::path& project) {
 }
 
 fs::path results_of(const fs::path& item) {
-    return item.parent_path().parent_path() / "results";
+    return fs::absolute(item).parent_path().parent_path() / "results";
 }
 
 // By name.

@@ -83,6 +83,8 @@ TEST_F(ShardedWork, DamagedItemsAndResultsAreNamedAndNotUsed) {
     std::sort(files.begin(), files.end());
     const std::string whole = program::bytes_in(files[0]);
     ASSERT_EQ(run({"work", files[1].string()}).code, 0) << "one item alone";
+    EXPECT_EQ(json::parse(run({"work", files[1].string(), "--status", "--json"}).out)["pieces"].size(), 1U);
+    EXPECT_TRUE(fs::exists(folder.path / "p.qch" / "work" / "results"));
     for (const std::string& damaged :
          {std::string(), whole.substr(0, whole.size() / 2), whole.substr(1), std::string("qchopper item 1")}) {
         program::put(files[0], damaged);
