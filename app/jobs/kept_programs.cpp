@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
-constexpr std::uint32_t version_of_programs = 5;
+constexpr std::uint32_t version_of_programs = 6;
 
 void put(CacheWriter& out, const Vec3& v) {
     for (const double x : {v.x, v.y, v.z}) out.put(x);

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double steep_sine = 0.9925;                        // of 83 degrees, from which on a slope counts as a wall
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
-constexpr double beside_cut = 1;                             // mm of air that stays with a cut
 constexpr double worth_a_way = 40;                           // mm of air between two cuts
 
 // Whether a ball with its tip at a point cuts foam deeper than a film, or touches a wall: foam on a wall that is
@@ -68,12 +68,12 @@ class CutsAt {
 };
 
 // Air at an end of a pass, and such between two cuts as is longer than what a way around it costs.
-std::vector<Stretch> left_out(const std::vector<Stretch>& air, double length) {
+std::vector<Stretch> left_out(const std::vector<Stretch>& air, double length, double beside) {
     std::vector<Stretch> stretches;
     for (const Stretch& own : air) {
         const bool is_first = own.from <= 0;
         const bool is_last = own.to >= length;
-        const Stretch less{is_first ? 0 : own.from + beside_cut, is_last ? length : own.to - beside_cut};
+        const Stretch less{is_first ? 0 : own.from + beside, is_last ? length : own.to - beside};
         const double least = is_first || is_last ? min_part : worth_a_way;
         if (less.to - less.from >= least) stretches.push_back(less);
     }
@@ -88,27 +88,31 @@ bool is_cutting(const Pass& pass, const HeightField& stock, const CuttingTool& t
     return !blocked_stretches(pass, 0.5 * stock.cell, std::not_fn(cuts)).empty();
 }
 
+std::vector<Pass> cutting_parts(const Pass& pass, const AirOptions& options, const std::function<bool(Vec3)>& cuts) {
+    const double length = length_of(pass);
+    const std::vector<Stretch> air = left_out(blocked_stretches(pass, options.apart, cuts), length, options.beside);
+    if (air.empty()) return {pass};
+    std::vector<Pass> parts;
+    const auto add = [&](Pass part) {
+        if (length_of(part) > min_length) parts.push_back(std::move(part));
+    };
+    PassCutter cutter(pass);
+    for (const Stretch& own : air) {
+        if (own.from > 0) add(cutter.up_to(own.from));
+        cutter.up_to(own.to);
+    }
+    if (air.back().to < length) add(cutter.up_to(length + 1));
+    return parts;
+}
+
 std::vector<Pass> cutting_parts(const std::vector<Pass>& passes, const HeightField& stock, const CuttingTool& tool,
                                 double film) {
     assert(tool.shape == ToolShape::ball && film >= 0);
     const CutsAt cuts(stock, tool, film);
     std::vector<Pass> parts;
-    const auto add = [&](Pass part) {
-        if (length_of(part) > min_length) parts.push_back(std::move(part));
-    };
     for (const Pass& pass : passes) {
-        const double length = length_of(pass);
-        const std::vector<Stretch> air = left_out(blocked_stretches(pass, 0.5 * stock.cell, cuts), length);
-        if (air.empty()) {
-            parts.push_back(pass);
-            continue;
-        }
-        PassCutter cutter(pass);
-        for (const Stretch& own : air) {
-            if (own.from > 0) add(cutter.up_to(own.from));
-            cutter.up_to(own.to);
-        }
-        if (air.back().to < length) add(cutter.up_to(length + 1));
+        std::vector<Pass> own = cutting_parts(pass, {0.5 * stock.cell}, std::cref(cuts));
+        std::move(own.begin(), own.end(), std::back_inserter(parts));
     }
     return parts;
 }

@@ -1,10 +1,11 @@
-// The parts of a pass along which a ball cuts foam.
+// The parts of a pass along which a tool cuts foam.
 //
 // mm, in the frame of the maps of a direction. Other passes, tools and directions leave stretches of air in a pass:
 // where regions overlap, and where a larger ball has come nearly as deep. The tool goes straight to what is left.
 
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cam/cell/cutting_tool.h"
@@ -18,8 +19,17 @@ namespace qchopper {
 // may lie between centres. O(length / cell * (radius / cell)^2) (tests/cam/toolpath/cutting_parts_test.cpp).
 bool is_cutting(const Pass& pass, const HeightField& stock, const CuttingTool& tool, double film);
 
-// The passes without air at their ends, but for 1 mm, and without air between two cuts that is longer than what a way
-// around it costs. Those that do not cut are left out.
+// Of a pass: how far apart it is asked whether the tool cuts, and how much air stays beside a cut.
+struct AirOptions {
+    double apart = 0.25;
+    double beside = 1;
+};
+
+// A pass without air at its ends, and without air between two cuts that is longer than what a way around it costs;
+// nothing if it does not cut. `cuts` says whether a tool with its tip at a point cuts.
+std::vector<Pass> cutting_parts(const Pass& pass, const AirOptions& options, const std::function<bool(Vec3)>& cuts);
+
+// The same of the passes of a ball, which cuts as above; 1 mm of air stays.
 std::vector<Pass> cutting_parts(const std::vector<Pass>& passes, const HeightField& stock, const CuttingTool& tool,
                                 double film);
 

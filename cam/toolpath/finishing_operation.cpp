@@ -24,6 +24,8 @@ namespace {
 
 // Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
 constexpr DilationOptions finishing_dilation_options{0, 0.075};
+// Of a stepover, by which regions of different operations overlap.
+constexpr double region_overlap = 0.25;
 
 const CuttingTool& tool_of(const Operation& operation, const FinishingInput& input) {
     return input.machine.tools[operation.tool];
@@ -138,8 +140,9 @@ PassesLeft finishing_operation(Operation operation, const FinishingInput& input,
     HeightField cl = own_cl;
     raise_over_piece(cl, operation, input, over_piece->piece, tiles.tip);
     if (input.stock != nullptr) raise_over_stock(cl, operation, input, tiles.tip);
-    const FinishingRegion region = rest.take(remaining_surface(cl, tool, tiles.surface), near(operation, input),
-                                             operation.stepover, worth(operation, input), input.is_whole);
+    const FinishingRegion region =
+        rest.take(remaining_surface(cl, tool, tiles.surface), near(operation, input),
+                  region_overlap * operation.stepover, worth(operation, input), input.is_whole);
     const bool has_surface = std::any_of(region.begin(), region.end(), [](float low) { return low != not_finished; });
     std::vector<Pass> passes;
     if (has_surface || has_floor) {

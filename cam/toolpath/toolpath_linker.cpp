@@ -28,7 +28,12 @@ constexpr double highest_lift = 5;                           // over a ridge bet
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr double least_rounding = 0.05;                      // mm before a corner that are worth a line
 constexpr double cut_into = 0.02;                            // mm below the limit that a rounded corner may be
-constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
+// What roughing does not come for: foam so low, and so narrow a strip along a wall; finishing takes it.
+constexpr double film_of_roughing = 0.1;
+constexpr double left_at_rim = 1;
+// So much air stays that a link to the cut touches no foam.
+constexpr AirOptions air_of_roughing{2, 5};
+constexpr double ramp_penalty = 60;  // mm of way that an entry beside the foam is worth
 
 Vec3 raised(Vec3 point, double z) {
     return {point.x, point.y, z};
@@ -116,7 +121,12 @@ double ToolpathLinker::holder_at(double x, double y) const {
 }
 
 bool ToolpathLinker::needs_ramp(Vec3 at) const {
-    return stock_near(at, inner_) > at.z + 0.1;
+    return stock_near(at, inner_) > at.z + film_of_roughing;
+}
+
+bool ToolpathLinker::removes_foam(Vec3 at) const {
+    const double core = std::max(0.0, 0.5 * tool_->diameter - left_at_rim);
+    return is_dilation_above(space_->centre_stock, at.x, at.y, core, at.z + film_of_roughing);
 }
 
 ToolpathLinker::Way ToolpathLinker::way_to(Vec3 to) const {
@@ -327,7 +337,8 @@ void ToolpathLinker::add_roughing(const std::vector<Pass>& passes) {
             const double more = norm(other - at_) - norm(pass.points[0].tip - at_);
             if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
         }
-        add_pass(pass);
+        const auto removes = [&](Vec3 at) { return removes_foam(at); };
+        for (const Pass& part : cutting_parts(pass, air_of_roughing, removes)) add_pass(part);
     }
 }
 

@@ -95,6 +95,8 @@ class ToolpathLinker {
     double limit_spacing() const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
+    // More than roughing leaves to finishing, were the tool a cylinder.
+    bool removes_foam(Vec3 at) const;
 
     MillingSpace* space_;
     const CuttingTool* tool_;

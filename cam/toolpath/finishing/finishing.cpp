@@ -32,10 +32,17 @@
 #include "cam/toolpath/finishing/raster_passes.h"
 #include "cam/toolpath/finishing/scallop.h"
 #include "cam/toolpath/finishing/waterline_passes.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "segment/raster/square_dilation.h"
 
 namespace qchopper {
 namespace {
+
+// Shares of a stepover. Half a stepover beyond its end a pass leaves a scallop as high as in the middle between two, so
+// that passes need hardly overlap those of other regions.
+constexpr double pass_overlap = 0.1;  // by which passes run on beyond their region
+constexpr double row_margin = 0.25;   // beside the region, over which rows may run on
+constexpr double short_pass = 0.75;   // length of a pass that is not worth a way there where longer ones are near
 
 void check(const CuttingTool& tool, const FinishingOptions& options) {
     const auto refuse = [](const std::string& what) {
@@ -223,6 +230,36 @@ class SteepRegions {
     std::vector<std::size_t> region_;
 };
 
+// Short open passes that have a longer one within a stepover or two: on a bumpy piece half of all passes, for a tenth
+// of their length.
+void leave_out_short_ones(std::vector<Pass>& passes, const HeightField& cl, double stepover) {
+    const auto is_short = [&](const Pass& pass) { return !pass.is_closed && length_of(pass) < short_pass * stepover; };
+    const auto squares = [&](std::size_t cells) {
+        return static_cast<std::size_t>(static_cast<double>(cells) * cl.cell / stepover) + 1;
+    };
+    const std::size_t columns = squares(cl.columns);
+    const std::size_t rows = squares(cl.rows);
+    CellMask near(columns * rows, 0);  // squares that longer passes come to
+    const auto square_of = [&](Vec3 tip) {
+        const auto at = [&](double x, std::size_t count) {
+            return static_cast<std::size_t>(std::clamp(std::floor(x / stepover), 0.0, static_cast<double>(count - 1)));
+        };
+        return at(tip.y, rows) * columns + at(tip.x, columns);
+    };
+    for (const Pass& pass : passes) {
+        if (is_short(pass)) continue;
+        for (std::size_t i = 1; i < pass.points.size(); ++i) {
+            const Vec3 from = pass.points[i - 1].tip;
+            const Vec3 way = pass.points[i].tip - from;
+            const double parts = std::ceil(2 * norm(way) / stepover) + 1;
+            for (double k = 0; k <= parts; ++k) near[square_of(from + (k / parts) * way)] = 1;
+        }
+    }
+    near = dilate_by_square(near, columns, rows, 1);
+    std::erase_if(passes,
+                  [&](const Pass& pass) { return is_short(pass) && near[square_of(pass.points.front().tip)] != 0; });
+}
+
 }  // namespace
 
 double finishing_stepover(const CuttingTool& tool, const FinishingOptions& options) {
@@ -249,12 +286,13 @@ std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& too
     FinishingMasks masks = masks_of(cl, region, options.tiles, radius, min_slope);
     report(1);
     SteepRegions(cl, masks).give_low_ones_to_flat(0.5 * stepover);
+    const double overlap = pass_overlap * stepover;
     const auto by = static_cast<std::size_t>(std::ceil(0.5 * stepover / cl.cell));
     const FinishingRegion wide_region = erode_by_square(region, cl.columns, cl.rows, by);
     report(2);
-    const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * stepover, options.rounding};
+    const RasterOptions common{radius, options.scallop, options.path_tolerance, overlap, options.rounding};
     // With the cells at the foot of a wall: squares of waterlines() may begin at them.
-    CellMask steep = SurfaceGrowth(dilate_by_square(masks.steep, cl.columns, cl.rows, 1), cl, 0.5 * stepover).mask();
+    CellMask steep = SurfaceGrowth(dilate_by_square(masks.steep, cl.columns, cl.rows, 1), cl, overlap).mask();
     WaterlineFloor foot;
     if (options.floor != nullptr) {
         foot = foot_of_walls(cl, *options.floor, radius);
@@ -263,10 +301,11 @@ std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& too
     std::vector<Pass> passes = waterline_passes(cl, {std::move(masks.steep), std::move(steep)},
                                                 {wide_region, foot, options.tool}, min_slope, common, context);
     report(3);
-    const CellMask flat = SurfaceGrowth(masks.flat, cl, stepover).mask();
+    const CellMask flat = SurfaceGrowth(masks.flat, cl, row_margin * stepover).mask();
     std::vector<Pass> rows = raster_passes(cl, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
     report(4);
+    leave_out_short_ones(passes, cl, stepover);
     return passes;
 }
 

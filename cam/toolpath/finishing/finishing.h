@@ -44,10 +44,11 @@ double finishing_stepover(const CuttingTool& tool, const FinishingOptions& optio
 double finishing_margin(const CuttingTool& tool, const FinishingOptions& options, double cell);
 
 // `cl` is the CL surface of the tool, raised where holder and spindle ask for it; `region` says which of the surface
-// is to be finished; passes go half a step beyond it. First the levels from above, then the rows. Throws InputError
-// (use) if the scallop height, the path tolerance or the slope is not above zero, a value is not finite, the scallop
-// height is above the radius of the tool, or the tool is no ball. O(cells + length of the passes / cell * gates that a
-// straight line passes).
+// is to be finished; passes go a tenth of a step beyond it, and such as are shorter than three quarters of a step are
+// left out where a longer one is near. First the levels from above, then the rows. Throws InputError (use) if the
+// scallop height, the path tolerance or the slope is not above zero, a value is not finite, the scallop height is above
+// the radius of the tool, or the tool is no ball. O(cells + length of the passes / cell * gates that a straight line
+// passes).
 std::vector<Pass> finishing_passes(const HeightField& cl, const CuttingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context = {});
 

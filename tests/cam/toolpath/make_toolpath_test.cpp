@@ -186,9 +186,12 @@ TEST(MakeToolpath, ABallOfAnySizeTouchesABoxOnAllItsSides) {
         for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
             if (operation.kind == OperationKind::roughing) continue;
             for (const PathRun& run : operation.runs) {
+                Vec3 from = run.start;
                 for (const PathMove& move : run.moves) {
-                    const Vec3 centre = move.tip + Vec3{0, 0, radius};
-                    if (centre.z > 30) continue;
+                    // The middle: a pass round the box has its ends beside corners.
+                    const Vec3 centre = 0.5 * (from + move.tip) + Vec3{0, 0, radius};
+                    from = move.tip;
+                    if (move.kind != MoveKind::cut || centre.z > 30) continue;
                     const std::array<double, 4> away{centre.x - 30, -30 - centre.x, centre.y - 20, -20 - centre.y};
                     const bool is_beside_one = std::ranges::count_if(away, [](double a) { return a > 0; }) == 1;
                     for (std::size_t k = 0; k < away.size() && is_beside_one; ++k) {

@@ -338,10 +338,13 @@ TEST(ToolpathLinker, NoLinkUpAlongAWallCutsIntoIt) {
 TEST(ToolpathLinker, ALinkIsRoundedOnlyWhereItsCornerTouchesNoFoam) {
     Plate plate;
     constexpr double level = 15;
-    constexpr double edge = 110;  // foam is at x from here on
+    constexpr double edge = 110;  // foam is at x from here on; besides, a post that the first pass removes
     for (HeightField* stock : {&plate.space.stock, &plate.space.centre_stock}) {
         for (std::size_t i = 0; i < stock->height.size(); ++i) {
-            if (static_cast<double>(i % stock->columns) < edge) stock->height[i] = 5;
+            const std::size_t x = i % stock->columns;
+            const std::size_t y = i / stock->columns;
+            const bool is_post = x > 30 && x < 50 && y > 95 && y < 105;
+            if (!is_post && static_cast<double>(x) < edge) stock->height[i] = 5;
         }
     }
     plate.operation.rounding = 5;
@@ -350,19 +353,51 @@ TEST(ToolpathLinker, ALinkIsRoundedOnlyWhereItsCornerTouchesNoFoam) {
     options.has_ramps = true;
     options.stay_down = 100;
     ToolpathLinker builder(plate.space, tool, plate.operation, options);
-    builder.add({line({30, 100, level}, {50, 100, level}), line({97, 100, level}, {140, 100, level})});
+    builder.add({line({15, 100, level}, {65, 100, level}), line({97, 100, level}, {140, 100, level})});
     const std::vector<PathRun> runs = builder.finish();
     ASSERT_EQ(runs.size(), 1U);
     Vec3 at = runs[0].start;
     std::size_t links = 0;
     for (const PathMove& move : runs[0].moves) {
-        if (move.kind == MoveKind::link && move.tip == Vec3{97, 100, level} && at.z == level) {
+        if (move.kind == MoveKind::link && move.tip.z == level && at.z == level) {
             ++links;
+            EXPECT_LE(move.tip.x + 0.5 * tool.diameter, edge);
+            EXPECT_GT(move.tip.x + 0.5 * tool.diameter, edge - 8);
             EXPECT_LE(move.tip.x + move.rounding + 0.5 * tool.diameter, edge);
         }
         at = move.tip;
     }
     EXPECT_EQ(links, 1U);
+}
+
+// Roughing leaves the beginning of the first pass out, and all of the second, which meets a strip of 0.5 mm.
+TEST(ToolpathLinker, RoughingGoesWhereItRemovesFoam) {
+    Plate plate;
+    constexpr double level = 15;
+    const CuttingTool tool = flat_tool(20);
+    for (HeightField* stock : {&plate.space.stock, &plate.space.centre_stock}) {
+        for (std::size_t i = 0; i < stock->height.size(); ++i) {
+            const std::size_t row = i / stock->columns;
+            if (i % stock->columns < 110 || row > 150) stock->height[i] = 5;
+            if (row == 170) stock->height[i] = 20;
+        }
+    }
+    LinkOptions options;
+    options.has_ramps = true;
+    ToolpathLinker builder(plate.space, tool, plate.operation, options);
+    builder.add({line({30, 100, level}, {140, 100, level}), line({30, 180, level}, {140, 180, level})});
+    double first = std::numeric_limits<double>::infinity();
+    double highest_y = 0;
+    for (const PathRun& run : builder.finish()) {
+        for (const PathMove& move : run.moves) {
+            if (move.tip.z != level) continue;
+            first = std::min(first, move.tip.x);
+            highest_y = std::max(highest_y, move.tip.y);
+        }
+    }
+    EXPECT_LT(first + 0.5 * tool.diameter, 110);
+    EXPECT_GT(first + 0.5 * tool.diameter, 102);
+    EXPECT_EQ(highest_y, 100);
 }
 
 TEST(ToolpathLinker, NoRunIsTooLongForAChunk) {
