@@ -9,7 +9,14 @@
 namespace qchopper {
 namespace {
 
-constexpr double clearance = 5;  // mm
+constexpr double clearance = 5;       // mm
+constexpr double straight_up = 1e-6;  // of the sine of the angle to the tool axis
+
+// Out of where the tool stands already: it meets nothing new.
+bool is_retract(Vec3 from, Vec3 to, Vec3 tool_axis) {
+    const Vec3 way = to - from;
+    return dot(way, tool_axis) > 0 && norm(cross(way, tool_axis)) <= straight_up * norm(way);
+}
 
 }  // namespace
 
@@ -36,7 +43,7 @@ std::size_t slow_moves_near(const std::vector<Capsule>& bodies, const CuttingToo
         for (ProgramMove& move : run.moves) {
             const Vec3 begin = from;
             from = move.tip;
-            if (move.speed <= tool.feed_min_mm_per_s) continue;
+            if (move.speed <= tool.feed_min_mm_per_s || is_retract(begin, move.tip, operation.tool_axis)) continue;
             const std::vector<Capsule> way =
                 bodies_of_cut(begin, move.tip, operation.tool_axis, 0.5 * tool.diameter, retract);
             const bool is_near = std::any_of(way.begin(), way.end(), [&](const Capsule& own) {

@@ -18,7 +18,8 @@ namespace qchopper {
 // axis is `retract`. O(length / radius).
 std::vector<Capsule> bodies_of_cut(Vec3 from, Vec3 to, Vec3 tool_axis, double radius, double retract);
 
-// Gives moves that come within 5 mm of one of the bodies the least feed of the tool, if they are faster. How many.
+// Gives moves that come within 5 mm of one of the bodies the least feed of the tool, if they are faster and do not go
+// straight up along it. How many.
 // O(moves * (1 + length / radius) * bodies).
 std::size_t slow_moves_near(const std::vector<Capsule>& bodies, const CuttingTool& tool, double retract,
                             ProgramOperation& operation);

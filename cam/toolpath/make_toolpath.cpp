@@ -156,7 +156,7 @@ class ToolpathMaker {
         const bool is_large = tool_index == tools_.roughing;
         const CuttingTool& finishing = is_large ? machine_.tools[tools_.finishing.front()] : tool;
         Operation operation = new_operation(orientation, tool_index, OperationKind::roughing);
-        operation.stepover = settings_.stepover_share * tool.diameter;
+        operation.stepover = stepover_of(tool, settings_);
         operation.stepdown = stepdown_of(tool, settings_);
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = settings_.rounding;

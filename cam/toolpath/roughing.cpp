@@ -20,6 +20,7 @@ namespace {
 
 constexpr double min_foam = 0.2;          // mm above a level that is worth a cut
 constexpr double allowance_share = 0.24;  // by which corners may be passed beside
+constexpr double rim_share = 0.4;         // of it, by which lines may pass beside a rim
 constexpr double level_within = 0.05;     // mm
 constexpr double flats_apart = 1;         // mm; finishing takes less
 constexpr double cells_beside = 2.5;      // by which a pass goes on beyond the foam, so that it begins beside it
@@ -28,8 +29,10 @@ constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way
 
 class RoughingLevels {
  public:
-    RoughingLevels(MillingSpace& space, const CuttingTool& tool, double stepdown, const RoughingOptions& options)
-        : space_(space), tool_(tool), stepdown_(stepdown), options_(options) {
+    RoughingLevels(MillingSpace& space, const CuttingTool& tool, const Operation& operation,
+                   const RoughingOptions& options)
+        : space_(space), tool_(tool), stepdown_(operation.stepdown), options_(options) {
+        beside_rim_ = rim_share * operation.allowance;
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
         flute_radius_ = std::max(0.0, radius - flute_rim);
@@ -85,7 +88,7 @@ class RoughingLevels {
     double deepest() const { return deepest_; }
 
     LevelRegion region(double level) const {
-        LevelRegion region{space_.stock.cell, space_.stock.columns, space_.stock.rows, {}, {}};
+        LevelRegion region{space_.stock.cell, space_.stock.columns, space_.stock.rows, {}, {}, beside_rim_};
         const auto height = static_cast<float>(level);
         const CellMask core = near_stock(space_.stock, static_cast<float>(level + min_above()), core_radius_);
         const CellMask skin =
@@ -171,13 +174,14 @@ class RoughingLevels {
     double core_radius_ = 0;   // foam within it is to go
     double flute_radius_ = 0;  // foam within it is cut by the flute
     double beside_ = 0;
+    double beside_rim_ = 0;
 };
 
 }  // namespace
 
 RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody& body, const Operation& operation,
                    const RoughingOptions& options, const Context& context) {
-    RoughingLevels levels(space, tool, operation.stepdown, options);
+    RoughingLevels levels(space, tool, operation, options);
     const std::vector<double> heights = levels.heights();
     double highest = -std::numeric_limits<double>::infinity();  // foam only gets lower
     for (const float height : space.stock.height) highest = std::max(highest, static_cast<double>(height));

@@ -1,8 +1,9 @@
 // The rim is followed from side to side of cells with the region on the left, as border following does (S. Suzuki and
 // K. Abe, "Topological structural analysis of digitized binary images by border following", 1985); cells that touch at
 // a corner alone are apart. Each side stands for the middle of its cell. Points are left out as long as the line
-// between those that stay passes through cells of the region only, near to all that it replaces. O(cells + points *
-// cells of the lines).
+// between those that stay is near to all that it replaces, and passes through cells of the region only or nearer still:
+// along an oblique wall cells go in steps, and a tool that follows each of them has a corner every two millimetres.
+// O(cells + points * points of a line).
 
 #include "cam/toolpath/roughing_passes.h"
 
@@ -101,11 +102,14 @@ double distance_to_line(CellPlace p, CellPlace a, CellPlace b) {
     return std::hypot(u - t * x, v - t * y);
 }
 
+// The cells between are neighbours in their order, so that no place of the line is farther from them than they are.
 bool is_line_near(const LevelRegion& region, const std::vector<CellPlace>& cells, std::size_t first, std::size_t last) {
+    double farthest = 0;
     for (std::size_t i = first + 1; i < last; ++i) {
-        if (distance_to_line(cells[i], cells[first], cells[last]) > max_beside) return false;
+        farthest = std::max(farthest, distance_to_line(cells[i], cells[first], cells[last]));
     }
-    return is_line_in(region, cells[first], cells[last]);
+    if (farthest * region.cell <= region.beside) return true;
+    return farthest <= max_beside && is_line_in(region, cells[first], cells[last]);
 }
 
 std::vector<CellPlace> reduced(const LevelRegion& region, const std::vector<CellPlace>& cells) {
@@ -142,22 +146,42 @@ class RoughingPasses {
         }
     }
 
+    // Along whichever axis of the map has fewer of them.
     void add_rows(std::ptrdiff_t step) {
-        // The first row lies in the middle of a step, so that the rim and it are not at the same place.
-        for (std::ptrdiff_t row = step / 2; row < static_cast<std::ptrdiff_t>(region_.rows); row += step) {
-            std::ptrdiff_t first = 0;
-            for (std::ptrdiff_t column = 0; column <= static_cast<std::ptrdiff_t>(region_.columns); ++column) {
-                if (wanted({column, row})) continue;
-                if (column - first > 1) push({{first, row}, {column - 1, row}}, false);
-                first = column + 1;
-            }
-        }
+        std::vector<Row> rows = rows_along(step, false);
+        std::vector<Row> turned = rows_along(step, true);
+        if (turned.size() < rows.size()) rows = std::move(turned);
+        for (const Row& row : rows) push({row.first, row.last}, false);
     }
 
     std::vector<Pass> take() { return std::move(passes_); }
 
  private:
+    struct Row {
+        CellPlace first;
+        CellPlace last;
+    };
+
     bool wanted(CellPlace cell) const { return region_.wanted(cell.column, cell.row); }
+
+    std::vector<Row> rows_along(std::ptrdiff_t step, bool is_turned) const {
+        const auto columns = static_cast<std::ptrdiff_t>(is_turned ? region_.rows : region_.columns);
+        const auto count = static_cast<std::ptrdiff_t>(is_turned ? region_.columns : region_.rows);
+        const auto cell = [&](std::ptrdiff_t column, std::ptrdiff_t row) {
+            return is_turned ? CellPlace{row, column} : CellPlace{column, row};
+        };
+        std::vector<Row> rows;
+        // The first row lies in the middle of a step, so that the rim and it are not at the same place.
+        for (std::ptrdiff_t row = step / 2; row < count; row += step) {
+            std::ptrdiff_t first = 0;
+            for (std::ptrdiff_t column = 0; column <= columns; ++column) {
+                if (column < columns && wanted(cell(column, row))) continue;
+                if (column - first > 1) rows.push_back({cell(first, row), cell(column - 1, row)});
+                first = column + 1;
+            }
+        }
+        return rows;
+    }
 
     void add_wanted(const std::vector<CellPlace>& cells) {
         std::vector<CellPlace> part;

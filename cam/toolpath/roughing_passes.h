@@ -1,8 +1,8 @@
 // The passes that clear a region of one level of roughing: along the rim of where the tip may go, and in rows.
 //
-// mm, in the frame of the map. Every point of a pass, and every cell under the line to the next one, is in the region,
-// but for corners of cells of which less than an eighth of a cell is passed
-// (tests/cam/toolpath/passes_and_links_test.cpp).
+// mm, in the frame of the map. Every point of a pass is in the region. So is every cell under the line to the next one,
+// but for corners of cells of which less than an eighth of a cell is passed, or the line passes at most `beside` from a
+// way over neighbouring cells (tests/cam/toolpath/passes_and_links_test.cpp).
 
 #pragma once
 
@@ -21,6 +21,7 @@ struct LevelRegion {
     std::size_t rows = 0;
     CellMask is_allowed;  // the tip may be there
     CellMask is_wanted;   // it has something to do there; looked at where it is allowed
+    double beside = 0;    // mm
 
     bool allowed(std::ptrdiff_t column, std::ptrdiff_t row) const { return is_in(is_allowed, column, row); }
     bool wanted(std::ptrdiff_t column, std::ptrdiff_t row) const {

@@ -66,6 +66,12 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
     return choice;
 }
 
+double stepover_of(const CuttingTool& tool, const ToolpathSettings& settings) {
+    constexpr double with_ridges = 0.6;  // between such passes a ball leaves ridges of a tenth of its diameter
+    const double share = settings.stepover_share;
+    return tool.diameter * (tool.shape == ToolShape::flat ? share : std::min(share, with_ridges));
+}
+
 double stepdown_of(const CuttingTool& tool, const ToolpathSettings& settings) {
     return std::min({settings.stepdown, 0.75 * tool.diameter, tool.flute_length});
 }

@@ -20,12 +20,12 @@ enum class FineTools : std::uint8_t { all, worthwhile, none };
 struct ToolpathSettings {
     double scallop = 0.25;  // height of the ridges that finishing leaves at most where the tool fits
     double path_tolerance = 0.1;
-    double cell = 0.25;           // of the maps for finishing
-    double allowance = 1.5;       // that roughing leaves
-    double fine_allowance = 0.5;  // that roughing with the tool of the finishing leaves
-    double stepdown = 15;         // largest height of a level of roughing
-    double stepover_share = 0.6;  // largest distance between passes of roughing, of the tool's diameter
-    double rounding = 5;          // see PathMove::rounding: the largest
+    double cell = 0.25;            // of the maps for finishing
+    double allowance = 1.5;        // that roughing leaves
+    double fine_allowance = 0.5;   // that roughing with the tool of the finishing leaves
+    double stepdown = 15;          // largest height of a level of roughing
+    double stepover_share = 0.85;  // largest distance between passes of roughing with a flat end, of its diameter
+    double rounding = 5;           // see PathMove::rounding: the largest
     // How far roughing comes beside the projection of the block; nothing: as far as it takes to begin beside the foam.
     std::optional<double> beside_block;
     std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
@@ -48,6 +48,9 @@ struct ToolChoice {
 // equal ones that are equally long the first alone. Throws InputError: config if the cell has no ball-ended tool, use
 // if a tool of the settings is not in the cell or finishing is asked of one that is not ball-ended.
 ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings);
+
+// Distance between the rows of roughing with a tool: of others than flat ends at most 0.6 of the diameter.
+double stepover_of(const CuttingTool& tool, const ToolpathSettings& settings);
 
 // Height of the levels of roughing with a tool: at most that of the settings, three quarters of its diameter, and its
 // flute.

@@ -60,7 +60,7 @@ TEST(LeftOutFoam, SlowsMovesThatMayMeetItAndNoOthers) {
     to({0, 0, 20}, MoveKind::cut);  // into it, as a cut
     to({0, 0, retract}, MoveKind::retract);
     operation.runs.push_back(run);
-    EXPECT_EQ(slow_moves_near(bodies, tool, retract, operation), 3U);
+    EXPECT_EQ(slow_moves_near(bodies, tool, retract, operation), 2U);
     const std::vector<ProgramMove>& moves = operation.runs[0].moves;
     EXPECT_EQ(moves[0].speed, 300);
     EXPECT_EQ(moves[1].speed, 20);
@@ -68,7 +68,7 @@ TEST(LeftOutFoam, SlowsMovesThatMayMeetItAndNoOthers) {
     EXPECT_EQ(moves[3].speed, 300);
     EXPECT_EQ(moves[4].speed, 100);
     EXPECT_EQ(moves[5].speed, 20) << "a cut removes what stays";
-    EXPECT_EQ(moves[6].speed, 20) << "out of it";
+    EXPECT_EQ(moves[6].speed, 300) << "straight up, where the tool is already";
     ProgramOperation other = operation;
     EXPECT_EQ(slow_moves_near({}, tool, retract, other), 0U);
     EXPECT_EQ(other, operation);

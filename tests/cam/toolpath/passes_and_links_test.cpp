@@ -36,19 +36,26 @@ LevelRegion random_region(unsigned seed) {
     return region;
 }
 
-// Within an eighth of a cell, by which a line may pass the corner of another cell.
+// Within an eighth of a cell, by which a line may pass the corner of another cell, or so far from the middle of one.
 bool is_allowed_near(const LevelRegion& region, Vec3 p) {
     for (const double x : {-0.126, 0.126}) {
         for (const double y : {-0.126, 0.126}) {
             if (region.allowed(std::lround(p.x / 1.5 - 0.5 + x), std::lround(p.y / 1.5 - 0.5 + y))) return true;
         }
     }
+    // Of the way over neighbouring cells no place is farther from the middle of one than half a cell.
+    for (std::size_t i = 0; i < region.is_allowed.size(); ++i) {
+        const double x = 1.5 * (static_cast<double>(i % region.columns) + 0.5) - p.x;
+        const double y = 1.5 * (static_cast<double>(i / region.columns) + 0.5) - p.y;
+        if (region.is_allowed[i] != 0 && std::hypot(x, y) <= region.beside + 0.75) return true;
+    }
     return false;
 }
 
 TEST(RoughingPasses, StayInTheRegionAndReachAllOfIt) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        const LevelRegion region = random_region(seed);
+        LevelRegion region = random_region(seed);
+        region.beside = seed % 2 == 0 ? 0 : 0.6;
         const double step = 6;
         std::vector<Vec3> places;
         for (const Pass& pass : roughing_passes(region, 4.5, step)) {
