@@ -14,6 +14,7 @@
 #include <csignal>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 extern char** environ;
 
@@ -72,24 +73,35 @@ bool read_some(Pipe& pipe, std::string& text) {
     return false;
 }
 
-}  // namespace
-
-ChildOutput run_child(const std::vector<std::string>& words, std::chrono::milliseconds limit) {
+// 0: there is no such program.
+pid_t spawned(const std::vector<std::string>& words, FileActions& actions) {
     assert(!words.empty());
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
+    ::posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    pid_t child = 0;
+    const int error = ::posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(), environ);
+    if (error == ENOENT || error == EACCES) return 0;
+    if (error != 0) fail(error, words[0].c_str());
+    return child;
+}
+
+int code_of(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
+}
+
+}  // namespace
+
+ChildOutput run_child(const std::vector<std::string>& words, std::chrono::milliseconds limit) {
     Pipe out;
     Pipe err;
     FileActions actions;
-    ::posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_adddup2(actions.get(), out.end(1), STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(actions.get(), err.end(1), STDERR_FILENO);
-    pid_t child = 0;
-    const int error = ::posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(), environ);
-    if (error == ENOENT || error == EACCES) return {not_found, {}, {}};
-    if (error != 0) fail(error, words[0].c_str());
+    const pid_t child = spawned(words, actions);
+    if (child == 0) return {not_found, {}, {}};
     out.close(1);
     err.close(1);
     ChildOutput output;
@@ -112,8 +124,37 @@ ChildOutput run_child(const std::vector<std::string>& words, std::chrono::millis
     }
     if (ended == 0) ::kill(child, SIGKILL);
     while (ended == 0 || (ended < 0 && errno == EINTR)) ended = ::waitpid(child, &status, 0);
-    output.code = WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
+    output.code = code_of(status);
     return output;
+}
+
+Child::Child(const std::vector<std::string>& words, const std::filesystem::path& output) {
+    constexpr mode_t readable = 0644;
+    FileActions actions;
+    ::posix_spawn_file_actions_addopen(actions.get(), STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
+                                       readable);
+    ::posix_spawn_file_actions_adddup2(actions.get(), STDOUT_FILENO, STDERR_FILENO);
+    process_ = spawned(words, actions);
+    if (process_ == 0) code_ = not_found;
+}
+
+Child::~Child() {
+    if (process_ == 0 || code()) return;
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+}
+
+Child::Child(Child&& other) noexcept : process_(std::exchange(other.process_, 0)), code_(other.code_) {}
+
+std::optional<int> Child::code() {
+    int status = 0;
+    if (!code_ && process_ > 0 && ::waitpid(process_, &status, WNOHANG) == process_) code_ = code_of(status);
+    return code_;
+}
+
+void Child::stop() {
+    if (process_ > 0 && !code()) ::kill(process_, SIGTERM);
 }
 
 }  // namespace qchopper

@@ -1,8 +1,10 @@
-// Runs another program to its end and returns what it says (tests/base/child_process_test.cpp).
+// Other programs: run to their end for what they say, or beside this one (tests/base/child_process_test.cpp).
 
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,5 +19,27 @@ struct ChildOutput {
 // `words` are the program, searched in PATH, and its arguments; its standard input is empty. It is killed after the
 // limit. Precondition: there is a word. Throws std::system_error if no process can be made.
 ChildOutput run_child(const std::vector<std::string>& words, std::chrono::milliseconds limit);
+
+// A program that runs beside this one, with both outputs at the end of a file.
+class Child {
+ public:
+    // Words as above. Throws std::system_error if no process can be made, or the file cannot be opened.
+    Child(const std::vector<std::string>& words, const std::filesystem::path& output);
+    // Kills it if it still runs.
+    ~Child();
+    Child(Child&& other) noexcept;
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    Child& operator=(Child&&) = delete;
+
+    // As ChildOutput::code; nothing while it runs.
+    std::optional<int> code();
+    // Sends SIGTERM.
+    void stop();
+
+ private:
+    int process_ = 0;
+    std::optional<int> code_;
+};
 
 }  // namespace qchopper

@@ -3,34 +3,28 @@
 
 #include "base/timings.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cassert>
 #include <ctime>
 #include <utility>
 
+#include "base/process.h"
+
 namespace qchopper {
 namespace {
 
-double seconds_of(clockid_t clock) {
+double wall_seconds() {
     timespec now{};
-    clock_gettime(clock, &now);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 SpentTime clocks() {
-    return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_PROCESS_CPUTIME_ID)};
+    return {wall_seconds(), cpu_seconds()};
 }
 
 SpentTime difference(const SpentTime& later, const SpentTime& earlier) {
     return {later.wall_s - earlier.wall_s, later.cpu_s - earlier.cpu_s};
-}
-
-std::size_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace

@@ -58,11 +58,13 @@ int report_stop(Terminal& terminal) {
     return report(terminal, "stopped on request", "", Terminal::cancel_code());
 }
 
-// Whether a command may be ended in the middle of its work: all but those that lead a cell, or are one.
+// Whether a command may be ended in the middle of its work: all but those that lead a cell or other processes, or are a
+// cell.
 bool may_end_anywhere(const Arguments& arguments) {
     const auto& command = arguments.command;
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
-           !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<CellControlArguments>(command);
+           !std::holds_alternative<CellSimArguments>(command) &&
+           !std::holds_alternative<CellControlArguments>(command) && !std::holds_alternative<SubmitArguments>(command);
 }
 
 // Throws nothing.

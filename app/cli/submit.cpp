@@ -1,5 +1,6 @@
-// Hands the items of a project to Slurm. The number of shards stands in the script, not in the array: an array of some
-// tasks has another count. gather follows whatever became of the tasks (afterany), and names what is missing.
+// Hands the items of a project to Slurm, or to processes here. The number of shards stands in the script, not in the
+// array: an array of some tasks has another count. gather follows whatever became of the tasks (afterany), and names
+// what is missing.
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/local_engine.h"
 #include "app/engine/work_project.h"
 #include "app/store/project_folder.h"
 #include "base/child_process.h"
@@ -16,6 +18,7 @@
 #include "base/files/file.h"
 #include "base/printable.h"
 #include "base/text.h"
+#include "cam/job/glue_faces.h"
 
 namespace qchopper {
 namespace {
@@ -28,6 +31,7 @@ constexpr double most_shards = 1000;
 constexpr double times_estimate = 3;  // of time that is asked for
 constexpr double least_minutes = 10;
 constexpr double least_megabytes = 1000;
+constexpr std::size_t most_failures = 3;  // of a piece that is tried again without being told
 
 // What is asked of Slurm.
 struct ArrayJob {
@@ -59,6 +63,14 @@ ArrayJob array_job(const std::vector<ItemEstimate>& items, std::optional<std::si
         job.megabytes = std::max(job.megabytes, std::ceil(2 * bytes / 1e6));
     }
     return job;
+}
+
+std::vector<std::string> given_up_pieces(const std::vector<ItemEstimate>& items) {
+    std::vector<std::string> names;
+    for (const ItemEstimate& item : items) {
+        if (!item.is_made && item.failures >= most_failures) names.push_back(item.piece);
+    }
+    return names;
 }
 
 std::string numbers(const std::vector<std::size_t>& tasks) {
@@ -127,7 +139,20 @@ SlurmAnswer submit(const fs::path& file, const fs::path& project, const std::str
 int run(const SubmitArguments& a, Terminal& terminal) {
     terminal.set_unchanged("Nothing was submitted.");
     const fs::path project = fs::absolute(without_slash(a.project));
-    const ArrayJob job = array_job(item_estimates(project, version()), a.shards);
+    const std::vector<ItemEstimate> items = item_estimates(project, version());
+    const std::vector<std::string> given_up = given_up_pieces(items);
+    if (!given_up.empty() && !a.has_retry) {
+        throw InputError(
+            InputFault::use,
+            "three attempts have failed to make " + list_of_pieces(given_up) + "; qchopper work --status says where",
+            "mend that, then submit with --retry");
+    }
+    const bool is_all_made = std::ranges::all_of(items, [](const ItemEstimate& item) { return item.is_made; });
+    if (!is_all_made && a.engine == "local") {
+        work_locally(project, items, {a.shards, 1e6 * a.memory_mb.value_or(0)}, terminal);
+        return run(GatherArguments{a.project}, terminal);
+    }
+    const ArrayJob job = array_job(items, a.shards);
     if (job.tasks.empty()) {
         terminal.message("every result is there; next: qchopper gather " + shell_word(without_slash(a.project)));
         return exit_done;

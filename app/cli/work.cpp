@@ -9,6 +9,7 @@
 #include "app/report/program_report.h"
 #include "app/store/project_folder.h"
 #include "base/error.h"
+#include "base/files/file.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cam/job/glue_faces.h"
@@ -31,10 +32,22 @@ int run(const WorkArguments& a, Terminal& terminal) {
 int run(const GatherArguments& a, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const std::filesystem::path folder = without_slash(a.project);
-    const std::vector<std::string> missing = take_results(folder, version(), terminal.context());
-    if (!missing.empty() && !a.make_missing) {
+    const std::vector<UnmadePiece> unmade = take_results(folder, version(), terminal.context());
+    const std::filesystem::path failed = folder / "work" / "failed.jsonl";
+    if (unmade.empty()) {
+        std::filesystem::remove(failed);
+    } else {
+        write_file(failed, json_lines(unmade));
+    }
+    if (!unmade.empty() && !a.make_missing) {
+        std::vector<std::string> missing;
+        for (const UnmadePiece& piece : unmade) {
+            missing.push_back(piece.piece);
+            terminal.warn({unmade_line(piece)});
+        }
         throw InputError(InputFault::missing,
-                         "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing),
+                         "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing) +
+                             "; work/failed.jsonl says what is known of them",
                          "make them: qchopper work " + shell_word(folder) + ", or gather with --make-missing");
     }
     PrepareOptions options{version(), {}};

@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <map>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
+#include "app/jobs/work_attempt.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
@@ -61,9 +65,50 @@ std::vector<fs::path> items_of_inputs(const std::vector<fs::path>& inputs) {
     return items;
 }
 
+fs::path attempts_of(const fs::path& item) {
+    return results_of(item).parent_path() / "attempts";
+}
+
+UnmadePiece unmade_piece(const WorkItem& item, const std::vector<SeenAttempt>& attempts) {
+    UnmadePiece unmade;
+    unmade.piece = item.job.piece.name;
+    unmade.failures = failures(attempts);
+    const SeenAttempt* last = nullptr;
+    for (const SeenAttempt& own : attempts) {
+        unmade.bytes = std::max(unmade.bytes, own.attempt.process_bytes);
+        const bool is_later = last == nullptr || own.age_s < last->age_s;
+        if (is_later) last = &own;
+    }
+    if (last == nullptr) return unmade;
+    unmade.is_at_work = !last->has_ended;
+    unmade.stage = last->attempt.stage;
+    unmade.because = last->attempt.because;
+    unmade.host = last->attempt.host;
+    unmade.process = last->attempt.process;
+    unmade.age_s = last->age_s;
+    return unmade;
+}
+
 // The project that all items are of; empty: of several, or of none.
 fs::path project_of(const std::vector<fs::path>& inputs) {
     return inputs.size() == 1 && inputs.front().extension() != item_ending ? inputs.front() : fs::path();
+}
+
+// work_on() with a record of the attempt, unless the result is there.
+WorkedPiece work_recorded(const WorkItem& item, const fs::path& file, const Context& context) {
+    if (std::optional<WorkedPiece> known = result_of(item, results_of(file))) return *std::move(known);
+    AttemptRecord record(item.job.piece.name, item.result, attempts_of(file));
+    try {
+        WorkedPiece piece = work_on(item, results_of(file), record.watched(context));
+        record.end(AttemptState::made);
+        return piece;
+    } catch (const Cancelled&) {
+        record.end(AttemptState::stopped);
+        throw;
+    } catch (const std::exception& error) {
+        record.end(AttemptState::failed, error.what());
+        throw;
+    }
 }
 
 }  // namespace
@@ -117,6 +162,7 @@ WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, c
     answer.pieces.resize(own.size());
     SharedProgress progress(context, "programs made", own.size());
     std::mutex telling;
+    std::exception_ptr failure;
     std::atomic<std::size_t> next = 0;
     parallel_for(0, own.size(), [&](std::size_t) {  // the largest first, whatever the order of the loop
         context.check_cancelled();
@@ -128,13 +174,26 @@ WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, c
             const std::lock_guard lock(telling);
             context.message(text);
         };
-        answer.pieces[k] = work_on(read_item(file, program_version), results_of(file), quiet);
+        const WorkItem item = read_item(file, program_version);
+        try {
+            answer.pieces[k] = work_recorded(item, file, quiet);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const InputError&) {  // what one piece cannot write no other can
+            throw;
+        } catch (const std::exception& error) {
+            const std::lock_guard lock(telling);
+            context.message("piece " + item.job.piece.name + " failed: " + error.what());
+            if (!failure) failure = std::current_exception();
+            return;
+        }
         {
             const std::lock_guard lock(telling);
             if (on_piece) on_piece(answer.pieces[k]);
         }
         progress.add(1);
     });
+    if (failure) std::rethrow_exception(failure);
     std::sort(answer.pieces.begin(), answer.pieces.end(),
               [](const WorkedPiece& a, const WorkedPiece& b) { return a.name < b.name; });
     return answer;
@@ -148,8 +207,9 @@ std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::stri
         const WorkItem item = read_item(file, program_version);
         const Vec3 size = item.job.setup.block.size;
         const double m2 = 2e-6 * (size.x * size.y + size.y * size.z + size.z * size.x);
-        estimates.push_back(
-            {item.job.piece.name, item.effort, at_least + per_m2 * m2, result_of(item, results_of(file)).has_value()});
+        estimates.push_back({item.job.piece.name, item.effort, at_least + per_m2 * m2,
+                             result_of(item, results_of(file)).has_value(),
+                             failures(attempts_at(item.result, attempts_of(file)))});
     }
     return estimates;
 }
@@ -157,16 +217,28 @@ std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::stri
 WorkAnswer work_done(const std::vector<fs::path>& inputs, const std::string& program_version) {
     const std::vector<fs::path> items = items_of_inputs(inputs);
     WorkAnswer answer{project_of(inputs), {}, items.size(), {}};
+    std::map<std::pair<std::string, std::uint64_t>, double> processes;  // by host and number
     for (const fs::path& file : items) {
-        const auto result = result_of(read_item(file, program_version), results_of(file));
-        if (result) answer.pieces.push_back(*result);
+        const WorkItem item = read_item(file, program_version);
+        const std::vector<SeenAttempt> attempts = attempts_at(item.result, attempts_of(file));
+        for (const SeenAttempt& own : attempts) {
+            double& spent = processes[{own.attempt.host, own.attempt.process}];
+            spent = std::max(spent, own.attempt.process_cpu_s);
+        }
+        if (const auto result = result_of(item, results_of(file))) {
+            answer.pieces.push_back(*result);
+        } else {
+            answer.unmade.push_back(unmade_piece(item, attempts));
+            answer.left_s += item.effort;
+        }
     }
+    for (const auto& process : processes) answer.spent_s += process.second;
     return answer;
 }
 
-std::vector<std::string> take_results(const fs::path& folder, const std::string& program_version,
+std::vector<UnmadePiece> take_results(const fs::path& folder, const std::string& program_version,
                                       const ProjectContext& context) {
-    std::vector<std::string> missing;
+    std::vector<UnmadePiece> unmade;
     fs::create_directories(folder / "cache");
     const std::vector<fs::path> items = items_in(folder);
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -177,10 +249,10 @@ std::vector<std::string> take_results(const fs::path& folder, const std::string&
         if (result_of(item, results_of(items[i]))) {
             write_file(folder / "cache" / item.result, read_file(result));
         } else {
-            missing.push_back(item.job.piece.name);
+            unmade.push_back(unmade_piece(item, attempts_at(item.result, attempts_of(items[i]))));
         }
     }
-    return missing;
+    return unmade;
 }
 
 }  // namespace qchopper

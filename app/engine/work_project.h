@@ -30,11 +30,27 @@ struct Shard {
 // is in one shard. O(items * (log(items) + shards)).
 std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> efforts);
 
+// An item without a result, and what is known of the attempts to make it.
+struct UnmadePiece {
+    std::string piece;
+    bool is_at_work = false;
+    std::string stage;    // of the last attempt; empty: there was none
+    std::string because;  // why that failed, if it says so
+    std::string host;     // and the process on it
+    std::uint64_t process = 0;
+    double age_s = 0;          // of its last sign of life
+    std::size_t failures = 0;  // attempts that have ended without a result, and were not stopped
+    std::uint64_t bytes = 0;   // peak memory of their processes
+};
+
 struct WorkAnswer {
     std::filesystem::path folder;  // of the project; empty: of several, or of none
     Shard shard;
-    std::size_t piece_count = 0;      // items in all
-    std::vector<WorkedPiece> pieces;  // of the shard, in the order of their names
+    std::size_t piece_count = 0;           // items in all
+    std::vector<WorkedPiece> pieces;       // of the shard, in the order of their names
+    std::vector<UnmadePiece> unmade = {};  // by name; work_done() alone
+    double spent_s = 0;                    // CPU time of all processes that have worked on them
+    double left_s = 0;                     // of the unmade ones, as estimated
 };
 
 // Writes work/items/<piece>.qitem of every piece that gets a program, in place of those that are there. Throws
@@ -43,7 +59,8 @@ WrittenItems write_items(OpenProject& project, const std::string& program_versio
 
 // Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
 // results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a
-// time. Throws InputError (missing) if there is no item, what read_file and item_from() throw, Cancelled.
+// time. A piece that fails does not keep the others from being made. Throws InputError (missing) if there is no item,
+// what read_file and item_from() throw, Cancelled; at the end the first failure.
 WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const Shard& shard,
                       const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
                       const ProjectContext& context);
@@ -54,17 +71,18 @@ struct ItemEstimate {
     std::string piece;
     double seconds = 0;
     double bytes = 0;
-    bool is_made = false;  // its result is there
+    bool is_made = false;      // its result is there
+    std::size_t failures = 0;  // attempts that have ended without it
 };
 // By name. Throws as work_items() does.
 std::vector<ItemEstimate> item_estimates(const std::filesystem::path& folder, const std::string& program_version);
 
-// What the results of these inputs hold, and nothing is made. Throws as work_items() does.
+// What the results of these inputs hold and what is known of the others; nothing is made. Throws as work_items() does.
 WorkAnswer work_done(const std::vector<std::filesystem::path>& inputs, const std::string& program_version);
 
-// Checks the results of a project and copies those that are whole into its cache, where prepare finds them. Names of
-// the pieces whose result is missing or damaged. Throws as work_items() does.
-std::vector<std::string> take_results(const std::filesystem::path& folder, const std::string& program_version,
+// Checks the results of a project and copies those that are whole into its cache, where prepare finds them. The pieces
+// whose result is missing or damaged. Throws as work_items() does.
+std::vector<UnmadePiece> take_results(const std::filesystem::path& folder, const std::string& program_version,
                                       const ProjectContext& context);
 
 }  // namespace qchopper

@@ -19,6 +19,19 @@ constexpr auto names_of(ProgramOutcome) {
     return outcome_names;
 }
 
+template <class V, Of<UnmadePiece> T>
+void fields(V& v, T& piece) {
+    v("piece", piece.piece);
+    v("at_work", piece.is_at_work);
+    v("stage", piece.stage);
+    v("because", piece.because);
+    v("host", piece.host);
+    v("process", piece.process);
+    v("age_s", piece.age_s);
+    v("failures", piece.failures);
+    v("bytes", piece.bytes);
+}
+
 template <class V, Of<WorkedPiece> T>
 void fields(V& v, T& piece) {
     v("piece", piece.name);
@@ -81,6 +94,27 @@ std::string worked_line(const WorkedPiece& piece) {
            duration(static_cast<std::uint32_t>(piece.time_s)) + (piece.was_kept ? ", kept from an earlier run" : "");
 }
 
+std::string unmade_line(const UnmadePiece& piece) {
+    std::string line = "piece " + piece.piece + ": ";
+    const std::string where = piece.host + ", process " + std::to_string(piece.process);
+    const std::string stage = piece.stage.empty() ? "the beginning" : piece.stage;
+    if (piece.host.empty()) return line + "not begun";
+    if (piece.is_at_work) {
+        line += "at work on " + where + ", at " + stage + "; sign of life " + fixed(piece.age_s, 0) + " s ago";
+        return piece.failures > 0 ? line + "; before, " + counted(piece.failures, "attempt") + " failed" : line;
+    }
+    if (piece.failures == 0) return line + "stopped on " + where + ", at " + stage;
+    line += counted(piece.failures, "attempt") + " failed, the last on " + where + ", at " + stage;
+    if (!piece.because.empty()) line += " (" + piece.because + ")";
+    return line + ", " + fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";
+}
+
+std::string json_lines(const std::vector<UnmadePiece>& pieces) {
+    std::string text;
+    for (const UnmadePiece& piece : pieces) text += json_values::to_document(piece, -1);
+    return text;
+}
+
 std::vector<std::string> lines(const WorkAnswer& answer) {
     std::vector<std::string> text;
     const std::string shard =
@@ -90,6 +124,11 @@ std::vector<std::string> lines(const WorkAnswer& answer) {
                    std::to_string(count_of(answer, ProgramOutcome::proven)) + " proven, " +
                    std::to_string(count_of(answer, ProgramOutcome::refused)) + " refused, " +
                    std::to_string(count_of(answer, ProgramOutcome::none)) + " without programs.");
+    for (const UnmadePiece& piece : answer.unmade) text.push_back(unmade_line(piece));
+    if (answer.spent_s > 0) {
+        text.push_back("CPU time " + duration(static_cast<std::uint32_t>(answer.spent_s)) + " spent, " +
+                       duration(static_cast<std::uint32_t>(answer.left_s)) + " left as estimated.");
+    }
     if (!answer.folder.empty()) {
         const char* when = answer.pieces.size() < answer.piece_count ? "Next, when all are made" : "Next";
         text.push_back(std::string(when) + ": qchopper gather " + shell_word(answer.folder));
@@ -106,6 +145,9 @@ Document document(const WorkAnswer& answer) {
     writer("shards", answer.shard.count);
     writer("piece_count", answer.piece_count);
     writer("pieces", answer.pieces);
+    writer("unmade", answer.unmade);
+    writer("spent_s", answer.spent_s);
+    writer("left_s", answer.left_s);
     return compose(json);
 }
 

@@ -19,6 +19,13 @@ std::string program_word(const PieceReport& piece);
 // "piece B: programs proven, 3 h 20 min", "piece C: no programs, the saw alone makes it".
 std::string worked_line(const WorkedPiece& piece);
 
+// "piece B: at work on node1, process 4711, replay; sign of life 4 s ago", "piece C: 2 attempts have failed, the last
+// in replay on node2 (out of memory), at most 800 MB".
+std::string unmade_line(const UnmadePiece& piece);
+
+// A line of JSON for each, and at its end a line feed.
+std::string json_lines(const std::vector<UnmadePiece>& pieces);
+
 // The end of `work`: how many of the shard's pieces have programs, and what comes next.
 std::vector<std::string> lines(const WorkAnswer& answer);
 // The document qchopper-work-1 (tests/app/cli/work_test.cpp).

@@ -2,36 +2,20 @@
 
 #include "base/files/temporary_name.h"
 
-#include <signal.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <random>
 
+#include "base/process.h"
 #include "base/sha256.h"
 
 namespace qchopper {
 namespace {
 
 constexpr const char* infix = ".tmp.";
-constexpr std::size_t host_length = 24;
 constexpr std::size_t digits = 8;  // of the random part and of the checksum
-
-// Of the machine, with other characters than letters and digits replaced: a dot ends it in a name.
-std::string host() {
-    std::array<char, 256> name{};
-    if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
-    std::string host(name.data());
-    host.resize(std::min(host.size(), host_length));
-    for (char& c : host) {
-        if ((c < '0' || c > '9') && (c < 'A' || c > 'Z') && (c < 'a' || c > 'z')) c = '-';
-    }
-    return host.empty() ? "unknown" : host;
-}
 
 std::string first_digits(const std::string& text) {
     const std::string marked = "qchopper temporary name " + text;
@@ -42,16 +26,12 @@ std::string with_checksum(const std::string& text) {
     return text + "-" + first_digits(text);
 }
 
-bool has_ended(long process) {
-    return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
-}
-
 }  // namespace
 
 std::string temporary_name(const std::string& name) {
     std::random_device random;
     const std::string chance = first_digits(std::to_string(random()) + " " + std::to_string(random()));
-    return with_checksum(name + infix + host() + "." + std::to_string(::getpid()) + "." + chance);
+    return with_checksum(name + infix + host_name() + "." + std::to_string(::getpid()) + "." + chance);
 }
 
 bool is_leftover(const std::string& file_name) {
@@ -59,12 +39,12 @@ bool is_leftover(const std::string& file_name) {
     const std::size_t at = file_name.rfind(infix);
     if (at == std::string::npos || checksum == std::string::npos || checksum < at) return false;
     if (with_checksum(file_name.substr(0, checksum)) != file_name) return false;
-    const std::string own = host() + ".";
+    const std::string own = host_name() + ".";
     const std::string rest = file_name.substr(at + std::string(infix).size());
     if (!rest.starts_with(own)) return false;
     long process = 0;
     std::from_chars(rest.data() + own.size(), rest.data() + rest.size(), process);
-    return process > 0 && has_ended(process);
+    return process > 0 && has_process_ended(process);
 }
 
 }  // namespace qchopper

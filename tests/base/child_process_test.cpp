@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "base/files/temporary_folder.h"
 
 namespace qchopper {
 namespace {
@@ -39,6 +43,27 @@ TEST(ChildProcess, IsKilledAfterItsTime) {
     const ChildOutput said = run_child({"sh", "-c", "echo begun; exec sleep 60"}, 300ms);
     EXPECT_EQ(said.code, 128 + SIGKILL);
     EXPECT_EQ(said.out, "begun\n");
+}
+
+TEST(Child, RunsBesideThisOneAndAddsToAFile) {
+    const TemporaryFolder folder("child-");
+    const std::filesystem::path log = folder.path() / "log";
+    const auto code_of = [](Child& child) {
+        while (!child.code()) std::this_thread::sleep_for(5ms);
+        return *child.code();
+    };
+    Child first({"sh", "-c", "echo one; echo two >&2; exit 3"}, log);
+    EXPECT_EQ(code_of(first), 3);
+    Child second({"sh", "-c", "echo three; exec sleep 60"}, log);
+    EXPECT_FALSE(second.code());
+    second.stop();
+    EXPECT_EQ(code_of(second), 128 + SIGTERM);
+    Child none({"no-such-program-of-qchopper"}, log);
+    EXPECT_EQ(code_of(none), 127);
+    std::ifstream file(log);
+    std::string text;
+    std::getline(file, text, '\0');
+    EXPECT_EQ(text.substr(0, 8), "one\ntwo\n");
 }
 
 }  // namespace

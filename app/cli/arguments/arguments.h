@@ -138,7 +138,10 @@ struct WorkArguments {
 
 struct SubmitArguments {
     std::filesystem::path project;
+    std::string engine = "slurm";  // or local
     std::optional<std::size_t> shards;
+    std::optional<double> memory_mb;  // of all processes together, local
+    bool has_retry = false;           // of pieces that have failed three times too
     bool is_only_written = false;
     std::vector<std::string> options;  // of sbatch
 };

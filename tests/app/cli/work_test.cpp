@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
 
 #include "app/cli/exit_code.h"
+#include "app/cli/local_engine.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -32,6 +37,22 @@ struct ShardedWork : ::testing::Test {
     void SetUp() override {
         fs::copy(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml", folder.path / "kr60-ha.toml");
         ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0);
+    }
+    // Kills a process as soon as it works on the largest piece.
+    void kill_at_work(const std::string& project) const {
+        const fs::path attempts = folder.path / project / "work" / "attempts";
+        const auto count = [&] {
+            std::error_code error;
+            const fs::directory_iterator records(attempts, error);
+            return std::count_if(begin(records), end(records),
+                                 [](const auto& entry) { return entry.path().extension() == ".json"; });
+        };
+        const auto before = count();
+        program::Process process({"work", project, "--threads", "1"}, {folder.path});
+        for (int k = 0; k < 2000 && count() == before; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        process.signal(SIGKILL);
+        ASSERT_EQ(process.wait().killed_by, SIGKILL);
+        ASSERT_EQ(count(), before + 1);
     }
     Contents without_cache(const std::string& project) const {
         Contents all = program::contents(folder.path / project);
@@ -137,6 +158,49 @@ TEST_F(ShardedWork, AreHandedToSlurmByAScript) {
     }
     EXPECT_EQ(run({"submit", "p.qch", "--shards", "0"}).code, exit_use);
     EXPECT_EQ(run({"submit", "none.qch"}).code, exit_missing);
+}
+
+// The jobs are those of prepare, also after a process was killed in the middle.
+TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
+    prepare("whole.qch", {"--programs"});
+    prepare("parts.qch", {"--items"});
+    const fs::path work = folder.path / "parts.qch" / "work";
+    kill_at_work("parts.qch");
+    const json status = json::parse(run({"work", "parts.qch", "--status", "--json"}).out);
+    EXPECT_GE(status["unmade"].size(), 1U);
+    for (const json& piece : status["unmade"]) {
+        EXPECT_EQ(piece["at_work"], false) << piece;
+        EXPECT_LE(piece["failures"], 1) << piece;
+    }
+    EXPECT_EQ(run({"gather", "parts.qch"}).code, exit_missing);
+    std::size_t lines = 0;
+    std::istringstream failed(program::bytes_in(work / "failed.jsonl"));
+    for (std::string line; std::getline(failed, line); ++lines) EXPECT_TRUE(json::parse(line).contains("piece"));
+    EXPECT_EQ(lines, status["unmade"].size());
+    const Ended done = run({"submit", "parts.qch", "--engine", "local", "--shards", "2"});
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_FALSE(fs::exists(work / "failed.jsonl"));
+    EXPECT_TRUE(fs::exists(work / "local-1.log"));
+    EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
+    EXPECT_EQ(run({"submit", "parts.qch", "--engine", "none"}).code, exit_use);
+    EXPECT_EQ(run({"submit", "parts.qch", "--memory", "100"}).code, exit_use) << "it is for --engine local";
+}
+
+TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
+    prepare("p.qch", {"--items"});
+    for (int k = 0; k < 3; ++k) kill_at_work("p.qch");
+    const Ended refused = run({"submit", "p.qch", "--print"});
+    EXPECT_EQ(refused.code, exit_use);
+    EXPECT_NE(refused.err.find("three attempts have failed to make"), std::string::npos) << refused.err;
+    EXPECT_EQ(run({"submit", "p.qch", "--print", "--retry"}).code, 0);
+}
+
+TEST(LocalEngine, HasAsManyProcessesAsMemoryHolds) {
+    const std::vector<ItemEstimate> items{{"A", 1, 3e9}, {"B", 1, 2e9}, {"C", 1, 1e9}, {"D", 1, 9e9, true}};
+    EXPECT_EQ(processes_for(items, 8, 100e9), 3U) << "no more than pieces are left";
+    EXPECT_EQ(processes_for(items, 2, 100e9), 2U);
+    EXPECT_EQ(processes_for(items, 8, 5.5e9), 2U);
+    EXPECT_EQ(processes_for(items, 8, 1e9), 1U);
 }
 
 TEST_F(ShardedWork, ADecisionRemovesItems) {

@@ -1,0 +1,22 @@
+// The machine and the process that this is, and other processes of the machine.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace qchopper {
+
+// Of the machine, as a part of a file name: at most 24 letters, digits and hyphens.
+std::string host_name();
+
+// Whether there is no process of that number on this machine.
+bool has_process_ended(long process);
+
+// Resident memory of this process at its peak so far, in bytes.
+std::size_t peak_memory();
+
+// CPU time of this process so far, in seconds.
+double cpu_seconds();
+
+}  // namespace qchopper
