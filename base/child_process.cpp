@@ -1,4 +1,4 @@
-// posix_spawnp with a pipe for each output; both are read until they are closed or the time is over.
+// posix_spawnp with a pipe for each output; both are read until they are closed or the time is over. O(bytes read).
 
 #include "base/child_process.h"
 

@@ -36,9 +36,8 @@ class AttemptRecord {
     // `result` is the name of the file that is to be made, `attempts` the folder, which is made.
     AttemptRecord(std::string piece, std::string result, std::filesystem::path attempts);
 
-    // The same context, of which each report of progress counts as a sign of life: every five seconds it is written, or after one
-    // where a new stage begins.
-    // The record must outlive it. Called from one thread at a time.
+    // The same context, of which each report of progress counts as a sign of life: every five seconds it is written, or
+    // after one where a new stage begins. The record must outlive it. Called from one thread at a time.
     Context watched(const Context& context);
 
     void end(AttemptState state, const std::string& because = {});

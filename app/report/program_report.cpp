@@ -97,14 +97,15 @@ std::string worked_line(const WorkedPiece& piece) {
 std::string unmade_line(const UnmadePiece& piece) {
     std::string line = "piece " + piece.piece + ": ";
     const std::string where = piece.host + ", process " + std::to_string(piece.process);
+    const std::string failed = counted(piece.failures, "attempt");
     const std::string stage = piece.stage.empty() ? "the beginning" : piece.stage;
     if (piece.host.empty()) return line + "not begun";
     if (piece.is_at_work) {
         line += "at work on " + where + ", at " + stage + "; sign of life " + fixed(piece.age_s, 0) + " s ago";
-        return piece.failures > 0 ? line + "; before, " + counted(piece.failures, "attempt") + " failed" : line;
+        return piece.failures > 0 ? line + "; before, " + failed + " failed" : line;
     }
     if (piece.failures == 0) return line + "stopped on " + where + ", at " + stage;
-    line += counted(piece.failures, "attempt") + " failed, the last on " + where + ", at " + stage;
+    line += failed + " failed, the last on " + where + ", at " + stage;
     if (!piece.because.empty()) line += " (" + piece.because + ")";
     return line + ", " + fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";
 }
