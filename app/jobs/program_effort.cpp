@@ -18,7 +18,7 @@ namespace qchopper {
 namespace {
 
 // CPU seconds: seconds * litres^by_volume * dm2^by_area * orientations^by_orientations.
-constexpr double seconds = 0.71;
+constexpr double seconds = 0.5;
 constexpr double by_volume = 0.12;
 constexpr double by_area = 0.68;
 constexpr double by_orientations = 1.4;

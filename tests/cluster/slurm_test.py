@@ -2,11 +2,13 @@
 
     slurm_test.py PROGRAM CELL
 
-A worker is killed, a task is requeued, a node is restarted; the jobs are those of one prepare, to the byte. Exit code 77
-where Slurm or munge is not installed; skipped where they do not start.
+A worker is killed, a task is requeued, one runs out of time, one out of memory, one is cancelled, a node and the controller
+are restarted; the jobs are those of one prepare, to the byte. Exit code 77 where Slurm or munge is not installed; skipped
+where they do not start.
 """
 
 import hashlib
+import json
 import os
 import pwd
 import re
@@ -40,6 +42,9 @@ SlurmctldLogFile={folder}/log/slurmctld.log
 SlurmdLogFile={folder}/log/%n.log
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/linux
+JobAcctGatherFrequency=task=1
+JobAcctGatherParams=OverMemoryKill
 MpiDefault=none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core_Memory
@@ -78,7 +83,7 @@ class Slurm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="qchopper-slurm-"))
-        cls.daemons = []
+        cls.daemons = {}
         cls.addClassCleanup(cls.end)
         for name in ("munge", "state", "log", "n0", "n1"):
             (cls.folder / name).mkdir(mode=0o700)
@@ -102,24 +107,38 @@ class Slurm(unittest.TestCase):
     @classmethod
     def start_all(cls, key, conf):
         munge = key.parent
-        cls.start("munged", "--foreground", "--force", f"--key-file={key}", f"--socket={munge}/socket",
-                  f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed")
+        cls.commands = {
+            "munged": ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={munge}/socket",
+                       f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed"],
+            "slurmctld": ["slurmctld", "-D", "-f", str(conf)],
+            "n0": ["slurmd", "-D", "-f", str(conf), "-N", "n0"],
+            "n1": ["slurmd", "-D", "-f", str(conf), "-N", "n1"],
+        }
+        cls.start("munged")
         wait_until("munge", (munge / "socket").exists, 20)
-        cls.start("slurmctld", "-D", "-f", conf)
-        for node in ("n0", "n1"):
-            cls.start("slurmd", "-D", "-f", conf, "-N", node)
+        for name in ("slurmctld", "n0", "n1"):
+            cls.start(name)
+        cls.wait_for_nodes()
+
+    @classmethod
+    def wait_for_nodes(cls):
         wait_until("two idle nodes", lambda: cls.asked("sinfo", "-h", "-o", "%t %D") == "idle 2", 60)
 
     @classmethod
-    def start(cls, name, *arguments):
-        with (cls.folder / "log" / f"{name}-{len(cls.daemons)}.out").open("wb") as output:
-            daemon = subprocess.Popen([shutil.which(name, path=SEARCHED), *map(str, arguments)], stdout=output,
-                                      stderr=subprocess.STDOUT, env=cls.environment)
-        cls.daemons.append(daemon)
+    def start(cls, name):
+        command = cls.commands[name]
+        with (cls.folder / "log" / f"{name}.out").open("ab") as output:
+            cls.daemons[name] = subprocess.Popen([shutil.which(command[0], path=SEARCHED), *command[1:]], stdout=output,
+                                                 stderr=subprocess.STDOUT, env=cls.environment)
+
+    @classmethod
+    def kill(cls, name):
+        cls.daemons[name].kill()
+        cls.daemons[name].wait()
 
     @classmethod
     def end(cls):
-        for daemon in reversed(cls.daemons):
+        for daemon in reversed(cls.daemons.values()):
             daemon.terminate()
             try:
                 daemon.wait(10)
@@ -150,9 +169,9 @@ class Slurm(unittest.TestCase):
         return subprocess.run([PROGRAM, "submit", project, "--shards", str(SHARDS), *options], capture_output=True,
                               text=True, check=False, timeout=60, cwd=self.folder, env=self.environment)
 
-    def submitted(self, project):
+    def submitted(self, project, *options):
         """The numbers of the array and of gather after it."""
-        said = self.submit(project)
+        said = self.submit(project, *options)
         self.assertEqual(said.returncode, 0, said.stderr)
         found = re.search(r"jobs (\d+) and (\d+) are submitted", said.stderr)
         self.assertTrue(found, said.stderr)
@@ -204,12 +223,55 @@ class Slurm(unittest.TestCase):
         jobs = self.submitted("re queued.qch")
         wait_until("a worker", lambda: self.workers("re queued.qch"), 60)
         self.asked("scontrol", "requeue", f"{jobs[0]}_0")
-        node = self.daemons[-1]
-        node.kill()
-        node.wait()
-        self.start("slurmd", "-D", "-f", self.folder / "slurm.conf", "-N", "n1")
+        self.kill("n1")
+        self.start("n1")
         self.wait_for(jobs)
         self.assert_same_jobs("re queued.qch")
+
+    def failed(self, project):
+        """The lines of failed.jsonl by their pieces."""
+        text = (self.folder / project / "work" / "failed.jsonl").read_text()
+        return {line["piece"]: line for line in map(json.loads, text.splitlines())}
+
+    def test_what_runs_out_of_time_or_memory_or_is_cancelled_is_submitted_again(self):
+        self.prepared("ended.qch")
+        jobs = self.submitted("ended.qch")
+        wait_until("two workers", lambda: len(self.workers("ended.qch")) == 2, 60)
+        self.asked("scontrol", "update", f"JobId={jobs[0]}_0", "EndTime=now+1")
+        self.asked("scancel", f"{jobs[0]}_1")
+        self.wait_for(jobs)
+        self.assertTrue(self.failed("ended.qch"))
+        self.wait_for(self.submitted("ended.qch", "--", "--mem=20M"))
+        failed = self.failed("ended.qch")
+        self.assertTrue(failed)
+        for line in failed.values():
+            self.assertEqual(line["at_work"], False, line)
+            self.assertEqual(line["host"], socket.gethostname().split(".")[0], line)
+        self.wait_for(self.submitted("ended.qch", "--retry"))
+        self.assert_same_jobs("ended.qch")
+        self.assertFalse((self.folder / "ended.qch" / "work" / "failed.jsonl").exists())
+
+    def test_the_controller_is_killed_and_restarted(self):
+        self.prepared("controller.qch")
+        jobs = self.submitted("controller.qch")
+        time.sleep(8)  # within the first second Slurm itself loses jobs
+        self.kill("slurmctld")
+        time.sleep(2)
+        self.start("slurmctld")
+        wait_until("the controller", lambda: self.asked("sinfo", "-h", "-o", "%D") != "", 60)
+        self.wait_for(jobs)
+        self.assert_same_jobs("controller.qch")
+
+    def test_without_controller_or_munge_nothing_is_submitted(self):
+        self.prepared("down.qch")
+        for name in ("slurmctld", "munged"):
+            self.kill(name)
+            said = self.submit("down.qch")
+            self.assertEqual(said.returncode, 69, said.stderr)
+            self.assertIn("Slurm does not take it: s", said.stderr)
+            self.start(name)
+            self.wait_for_nodes()
+        self.assertEqual(self.asked("squeue", "-h", "-n", "qchopper"), "")
 
     def test_what_slurm_refuses_is_told_and_nothing_is_submitted(self):
         self.prepared("refused.qch")

@@ -90,9 +90,9 @@ TEST_F(Parts, TheLastOneHasTheFiguresOfTheUndividedProgram) {
     prepare("3000000", "whole.qch");
     ASSERT_FALSE(fs::exists(folder.path / "whole.qch" / "jobs" / "A.p2.qjob"));
     std::map<std::string, double> whole = figures(verdict("whole.qch", "A"));
-    prepare("500000", "two.qch");
+    prepare("240000", "two.qch");
     ASSERT_FALSE(fs::exists(folder.path / "two.qch" / "jobs" / "A.p3.qjob"));
-    prepare("265000", "three.qch");
+    prepare("150000", "three.qch");
     ASSERT_TRUE(fs::exists(folder.path / "three.qch" / "jobs" / "A.p3.qjob"));
     ASSERT_FALSE(fs::exists(folder.path / "three.qch" / "jobs" / "A.p4.qjob"));
     for (const auto& [project, name] :
@@ -109,7 +109,7 @@ TEST_F(Parts, TheLastOneHasTheFiguresOfTheUndividedProgram) {
 }
 
 TEST_F(Parts, AreVerifiedInTheirOrder) {
-    prepare("265000", "p.qch");
+    prepare("150000", "p.qch");
     const program::Contents before = program::contents(folder.path);
     run({"verify", "p.qch"});
     EXPECT_EQ(program::difference(before, program::contents(folder.path)), "") << "the same verdicts";
@@ -178,7 +178,7 @@ class Attended {
 };
 
 TEST_F(Parts, AreHandedOverInTheirOrderEachAfterTheOneBeforeAndToTheSameBlock) {
-    prepare("265000", "p.qch");
+    prepare("150000", "p.qch");
     const std::vector<PieceJob> jobs = jobs_of(folder.path / "p.qch", std::nullopt, {}).jobs;
     ASSERT_EQ(jobs.size(), 3U);
     for (std::uint16_t k = 1; k <= 3; ++k) {

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
 #include "cam/toolpath/finishing/scallop.h"
+#include "cam/toolpath/pass_stretches.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
@@ -293,6 +294,26 @@ TEST(Finishing, BumpyPiecesAreNeverGougedAndLittleIsLeft) {
         }
         EXPECT_GE(within, 0.995 * reachable) << seed;
         EXPECT_GE(within_bound, 0.9995 * reachable) << seed;
+    }
+}
+
+// Short passes are left out only where a longer one comes within a few steps.
+TEST(Finishing, NoShortPassStandsBesideALongerOne) {
+    const FinishingOptions options;
+    const CuttingTool tool = ball_tool(12);
+    const double stepover = finishing_stepover(tool, options);
+    const Finished finished(bumpy(60, 40, 60, 1), 1, 40, options);
+    const auto is_short = [&](const Pass& pass) { return !pass.is_closed && length_of(pass) < 0.75 * stepover; };
+    ASSERT_GT(finished.passes.size(), 20U);
+    for (const Pass& pass : finished.passes) {
+        if (!is_short(pass)) continue;
+        for (const Pass& other : finished.passes) {
+            if (is_short(other)) continue;
+            for (const PassPoint& point : other.points) {
+                const Vec3 away = point.tip - pass.points.front().tip;
+                EXPECT_GT(std::hypot(away.x, away.y), stepover);
+            }
+        }
     }
 }
 

@@ -87,6 +87,23 @@ TEST(RoughingPasses, StayInTheRegionAndReachAllOfIt) {
     }
 }
 
+TEST(RoughingPasses, RowsLieAlongTheAxisThatHasFewer) {
+    for (const bool is_wide : {true, false}) {
+        LevelRegion region{1, is_wide ? 90U : 30U, is_wide ? 30U : 90U, {}, {}};
+        region.is_allowed.assign(2700, 1);
+        region.is_wanted = region.is_allowed;
+        std::size_t rows = 0;
+        for (const Pass& pass : roughing_passes(region, 0, 5)) {
+            if (pass.is_closed) continue;
+            ++rows;
+            const Vec3 along = pass.points.back().tip - pass.points.front().tip;
+            EXPECT_EQ(is_wide ? along.y : along.x, 0);
+            EXPECT_EQ(is_wide ? along.x : along.y, 89);
+        }
+        EXPECT_EQ(rows, 6U);
+    }
+}
+
 // Every fourth is closed.
 std::vector<Pass> random_passes(int count, double length, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 100);
