@@ -48,13 +48,13 @@ constexpr double silent_s = 120;
 
 }  // namespace
 
-AttemptRecord::AttemptRecord(std::string piece, std::string result, fs::path attempts) {
+AttemptRecord::AttemptRecord(std::string piece, const std::string& result, const fs::path& attempts) {
     attempt_.piece = std::move(piece);
     attempt_.host = host_name();
     attempt_.process = static_cast<std::uint64_t>(::getpid());
     fs::create_directories(attempts);
-    file_ = std::move(attempts) / (std::move(result) + "-" + attempt_.host + "-" + std::to_string(attempt_.process) +
-                                   "-" + std::to_string(std::random_device{}()) + ".json");
+    file_ = attempts / (result + "-" + attempt_.host + "-" + std::to_string(attempt_.process) + "-" +
+                        std::to_string(std::random_device{}()) + ".json");
     write();
 }
 

@@ -34,7 +34,7 @@ struct WorkAttempt {
 class AttemptRecord {
  public:
     // `result` is the name of the file that is to be made, `attempts` the folder, which is made.
-    AttemptRecord(std::string piece, std::string result, std::filesystem::path attempts);
+    AttemptRecord(std::string piece, const std::string& result, const std::filesystem::path& attempts);
 
     // The same context, of which each report of progress counts as a sign of life: every five seconds it is written, or
     // after one where a new stage begins. The record must outlive it. Called from one thread at a time.

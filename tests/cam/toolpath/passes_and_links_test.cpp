@@ -45,8 +45,9 @@ bool is_allowed_near(const LevelRegion& region, Vec3 p) {
     }
     // Of the way over neighbouring cells no place is farther from the middle of one than half a cell.
     for (std::size_t i = 0; i < region.is_allowed.size(); ++i) {
+        const std::size_t row = i / region.columns;
         const double x = 1.5 * (static_cast<double>(i % region.columns) + 0.5) - p.x;
-        const double y = 1.5 * (static_cast<double>(i / region.columns) + 0.5) - p.y;
+        const double y = 1.5 * (static_cast<double>(row) + 0.5) - p.y;
         if (region.is_allowed[i] != 0 && std::hypot(x, y) <= region.beside + 0.75) return true;
     }
     return false;
