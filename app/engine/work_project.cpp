@@ -103,7 +103,6 @@ WorkedPiece work_recorded(const WorkItem& item, const fs::path& file, const Cont
         record.end(AttemptState::made);
         return piece;
     } catch (const Cancelled&) {
-        record.end(AttemptState::stopped);
         throw;
     } catch (const std::exception& error) {
         record.end(AttemptState::failed, error.what());

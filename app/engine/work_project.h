@@ -39,7 +39,7 @@ struct UnmadePiece {
     std::string host;     // and the process on it
     std::uint64_t process = 0;
     double age_s = 0;          // of its last sign of life
-    std::size_t failures = 0;  // attempts that have ended without a result, and were not stopped
+    std::size_t failures = 0;  // attempts that have ended without a result
     std::uint64_t bytes = 0;   // peak memory of their processes
 };
 

@@ -20,10 +20,8 @@ namespace fs = std::filesystem;
 using namespace json_values;
 
 constexpr auto names_of(AttemptState) {
-    return EnumNames<AttemptState, 4>{{{AttemptState::at_work, "at work"},
-                                       {AttemptState::made, "made"},
-                                       {AttemptState::stopped, "stopped"},
-                                       {AttemptState::failed, "failed"}}};
+    return EnumNames<AttemptState, 3>{
+        {{AttemptState::at_work, "at work"}, {AttemptState::made, "made"}, {AttemptState::failed, "failed"}}};
 }
 
 template <class V, Of<WorkAttempt> T>
@@ -55,7 +53,13 @@ AttemptRecord::AttemptRecord(std::string piece, const std::string& result, const
     fs::create_directories(attempts);
     file_ = attempts / (result + "-" + attempt_.host + "-" + std::to_string(attempt_.process) + "-" +
                         std::to_string(std::random_device{}()) + ".json");
+    unfinished_.emplace(file_);
     write();
+}
+
+AttemptRecord::~AttemptRecord() {
+    std::error_code error;
+    if (attempt_.state == AttemptState::at_work) fs::remove(file_, error);
 }
 
 Context AttemptRecord::watched(const Context& context) {
@@ -73,6 +77,7 @@ void AttemptRecord::end(AttemptState state, const std::string& because) {
     attempt_.state = state;
     attempt_.because = because;
     write();
+    unfinished_.reset();
 }
 
 void AttemptRecord::write() {
@@ -110,9 +115,8 @@ std::vector<SeenAttempt> attempts_at(const std::string& result, const fs::path& 
 }
 
 std::size_t failures(const std::vector<SeenAttempt>& attempts) {
-    return static_cast<std::size_t>(std::ranges::count_if(attempts, [](const SeenAttempt& own) {
-        return own.has_ended && own.attempt.state != AttemptState::made && own.attempt.state != AttemptState::stopped;
-    }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        attempts, [](const SeenAttempt& own) { return own.has_ended && own.attempt.state != AttemptState::made; }));
 }
 
 }  // namespace qchopper

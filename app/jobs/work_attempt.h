@@ -10,14 +10,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/context.h"
+#include "base/files/unfinished.h"
 
 namespace qchopper {
 
-enum class AttemptState : std::uint8_t { at_work, made, stopped, failed };
+enum class AttemptState : std::uint8_t { at_work, made, failed };
 
 struct WorkAttempt {
     std::string piece;
@@ -30,11 +32,16 @@ struct WorkAttempt {
     std::uint64_t process_bytes = 0;  // its peak memory
 };
 
-// One attempt, from its beginning on. Failing to write throws as write_file does.
+// One attempt, from its beginning on. Its file goes if it is not ended, and if the program is stopped by a signal: only
+// what was killed leaves one that says "at work". Failing to write throws as write_file does.
 class AttemptRecord {
  public:
     // `result` is the name of the file that is to be made, `attempts` the folder, which is made.
     AttemptRecord(std::string piece, const std::string& result, const std::filesystem::path& attempts);
+
+    ~AttemptRecord();
+    AttemptRecord(const AttemptRecord&) = delete;
+    AttemptRecord& operator=(const AttemptRecord&) = delete;
 
     // The same context, of which each report of progress counts as a sign of life: every five seconds it is written, or
     // after one where a new stage begins. The record must outlive it. Called from one thread at a time.
@@ -47,6 +54,7 @@ class AttemptRecord {
 
     WorkAttempt attempt_;
     std::filesystem::path file_;
+    std::optional<Unfinished> unfinished_;
     std::chrono::steady_clock::time_point written_;
 };
 

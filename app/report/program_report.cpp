@@ -104,7 +104,7 @@ std::string unmade_line(const UnmadePiece& piece) {
         line += "at work on " + where + ", at " + stage + "; sign of life " + fixed(piece.age_s, 0) + " s ago";
         return piece.failures > 0 ? line + "; before, " + failed + " failed" : line;
     }
-    if (piece.failures == 0) return line + "stopped on " + where + ", at " + stage;
+    if (piece.failures == 0) return line + "its result is missing or damaged";
     line += failed + " failed, the last on " + where + ", at " + stage;
     if (!piece.because.empty()) line += " (" + piece.because + ")";
     return line + ", " + fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";

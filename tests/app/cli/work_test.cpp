@@ -38,21 +38,27 @@ struct ShardedWork : ::testing::Test {
         fs::copy(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml", folder.path / "kr60-ha.toml");
         ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0);
     }
-    // Kills a process as soon as it works on the largest piece.
-    void kill_at_work(const std::string& project) const {
-        const fs::path attempts = folder.path / project / "work" / "attempts";
-        const auto count = [&] {
-            std::error_code error;
-            const fs::directory_iterator records(attempts, error);
-            return std::count_if(begin(records), end(records),
-                                 [](const auto& entry) { return entry.path().extension() == ".json"; });
-        };
-        const auto before = count();
+    // Of attempts that are on record.
+    std::ptrdiff_t attempts(const std::string& project) const {
+        std::error_code error;
+        const fs::directory_iterator records(folder.path / project / "work" / "attempts", error);
+        return std::count_if(begin(records), end(records),
+                             [](const auto& entry) { return entry.path().extension() == ".json"; });
+    }
+    // Sends a signal to a process as soon as it works on the largest piece.
+    Ended ended_at_work(const std::string& project, int signal) const {
+        const auto before = attempts(project);
         program::Process process({"work", project, "--threads", "1"}, {folder.path});
-        for (int k = 0; k < 2000 && count() == before; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        process.signal(SIGKILL);
-        ASSERT_EQ(process.wait().killed_by, SIGKILL);
-        ASSERT_EQ(count(), before + 1);
+        for (int k = 0; k < 2000 && attempts(project) == before; ++k) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        process.signal(signal);
+        return process.wait();
+    }
+    void kill_at_work(const std::string& project) const {
+        const auto before = attempts(project);
+        ASSERT_EQ(ended_at_work(project, SIGKILL).killed_by, SIGKILL);
+        ASSERT_EQ(attempts(project), before + 1);
     }
     Contents without_cache(const std::string& project) const {
         Contents all = program::contents(folder.path / project);
@@ -188,6 +194,9 @@ TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
 
 TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
     prepare("p.qch", {"--items"});
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(ended_at_work("p.qch", SIGTERM).code, exit_terminated);
+    EXPECT_EQ(attempts("p.qch"), 0) << "a stop is no failure";
+    EXPECT_EQ(run({"submit", "p.qch", "--print"}).code, 0);
     for (int k = 0; k < 3; ++k) kill_at_work("p.qch");
     const Ended refused = run({"submit", "p.qch", "--print"});
     EXPECT_EQ(refused.code, exit_use);

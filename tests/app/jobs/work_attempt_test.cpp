@@ -44,9 +44,13 @@ TEST_F(Attempts, AreAtWorkUntilTheyEnd) {
     EXPECT_EQ(seen()[0].attempt.stage, "moves carved");
     EXPECT_EQ(seen()[0].attempt.because, "out of memory");
     EXPECT_EQ(failures(seen()), 1U);
-    AttemptRecord("A", "r", attempts).end(AttemptState::stopped);
+    {
+        const AttemptRecord stopped("A", "r", attempts);
+        EXPECT_EQ(seen().size(), 2U);
+    }
+    EXPECT_EQ(seen().size(), 1U) << "what was stopped is no failure";
     AttemptRecord("A", "r", attempts).end(AttemptState::made);
-    EXPECT_EQ(seen().size(), 3U);
+    EXPECT_EQ(seen().size(), 2U);
     EXPECT_EQ(failures(seen()), 1U);
 }
 
