@@ -429,7 +429,8 @@ TEST(ToolpathLinker, NoRunIsTooLongForAChunk) {
     Plate plate;
     Pass pass;
     for (int i = 0; i < 3000; ++i) pass.points.push_back({{20 + 0.05 * i, 100.0 + (i % 2), 12}, false});
-    ToolpathLinker builder(plate.space, ball_tool(12), plate.operation, {});
+    const CuttingTool tool = ball_tool(12);
+    ToolpathLinker builder(plate.space, tool, plate.operation, {});
     builder.add({pass});
     const std::vector<PathRun> runs = builder.finish();
     EXPECT_GE(runs.size(), 3U);
