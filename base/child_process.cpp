@@ -130,11 +130,18 @@ ChildOutput run_child(const std::vector<std::string>& words, std::chrono::millis
 
 Child::Child(const std::vector<std::string>& words, const std::filesystem::path& output) {
     constexpr mode_t readable = 0644;
+    const int file = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, readable);
+    if (file < 0) fail(errno, output.c_str());
     FileActions actions;
-    ::posix_spawn_file_actions_addopen(actions.get(), STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND,
-                                       readable);
-    ::posix_spawn_file_actions_adddup2(actions.get(), STDOUT_FILENO, STDERR_FILENO);
-    process_ = spawned(words, actions);
+    ::posix_spawn_file_actions_adddup2(actions.get(), file, STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(actions.get(), file, STDERR_FILENO);
+    try {
+        process_ = spawned(words, actions);
+    } catch (...) {
+        ::close(file);
+        throw;
+    }
+    ::close(file);
     if (process_ == 0) code_ = not_found;
 }
 

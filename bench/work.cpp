@@ -138,7 +138,10 @@ class WorkBench {
 
     static ChildResult checked(const Words& words) {
         const ChildResult result = run(words);
-        if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) > 1) std::exit(1);
+        if (!WIFEXITED(result.status) || WEXITSTATUS(result.status) > 1) {
+            std::cerr << words[1] << " failed\n";
+            std::exit(1);
+        }
         return result;
     }
 

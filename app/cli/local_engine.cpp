@@ -44,6 +44,10 @@ std::size_t results_in(const fs::path& project) {
     }));
 }
 
+fs::path log_of(const fs::path& project, std::size_t process) {
+    return project / "work" / ("local-" + std::to_string(process) + ".log");
+}
+
 }  // namespace
 
 std::size_t processes_for(const std::vector<ItemEstimate>& items, std::size_t processes, double bytes) {
@@ -57,7 +61,7 @@ std::size_t processes_for(const std::vector<ItemEstimate>& items, std::size_t pr
     return std::max<std::size_t>(1, needed.size());
 }
 
-bool work_locally(const fs::path& project, const std::vector<ItemEstimate>& items, const LocalLimits& limits,
+void work_locally(const fs::path& project, const std::vector<ItemEstimate>& items, const LocalLimits& limits,
                   Terminal& terminal) {
     const double bytes = limits.bytes > 0 ? limits.bytes : share_of_memory * free_bytes();
     const std::size_t count =
@@ -70,7 +74,7 @@ bool work_locally(const fs::path& project, const std::vector<ItemEstimate>& item
         const std::string shard = std::to_string(i) + "/" + std::to_string(count);
         children.emplace_back(
             std::vector<std::string>{program, "work", project.string(), "--threads", "1", "--shard", shard},
-            project / "work" / ("local-" + std::to_string(i) + ".log"));
+            log_of(project, i));
     }
     const ProjectContext context = terminal.context();
     bool is_stopping = false;
@@ -84,14 +88,11 @@ bool work_locally(const fs::path& project, const std::vector<ItemEstimate>& item
         std::this_thread::sleep_for(500ms);
     }
     context.check_cancelled();
-    bool is_well = true;
     for (std::size_t i = 0; i < count; ++i) {
         if (children[i].code() == 0) continue;
-        is_well = false;
         terminal.warn({"process " + std::to_string(i) + " ended with " + std::to_string(*children[i].code()) +
-                       ": see " + (project / "work" / ("local-" + std::to_string(i) + ".log")).string()});
+                       ": see " + log_of(project, i).string()});
     }
-    return is_well;
 }
 
 }  // namespace qchopper

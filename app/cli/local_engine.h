@@ -21,9 +21,9 @@ struct LocalLimits {
 // one process always runs. Precondition: processes > 0, bytes > 0.
 std::size_t processes_for(const std::vector<ItemEstimate>& items, std::size_t processes, double bytes);
 
-// Runs a process of `work` for each shard to its end; outputs go to work/local-I.log. Whether all ended well. Throws
-// Cancelled when the program is to stop, after they have.
-bool work_locally(const std::filesystem::path& project, const std::vector<ItemEstimate>& items,
+// Runs a process of `work` for each shard to its end; outputs go to work/local-I.log, and a process that ends otherwise
+// than well is warned of. Throws Cancelled when the program is to stop, after they have.
+void work_locally(const std::filesystem::path& project, const std::vector<ItemEstimate>& items,
                   const LocalLimits& limits, Terminal& terminal);
 
 }  // namespace qchopper

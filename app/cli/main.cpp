@@ -62,9 +62,10 @@ int report_stop(Terminal& terminal) {
 // cell.
 bool may_end_anywhere(const Arguments& arguments) {
     const auto& command = arguments.command;
+    const auto* const submit = std::get_if<SubmitArguments>(&command);
+    if (submit != nullptr && submit->engine == "local") return false;
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
-           !std::holds_alternative<CellSimArguments>(command) &&
-           !std::holds_alternative<CellControlArguments>(command) && !std::holds_alternative<SubmitArguments>(command);
+           !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<CellControlArguments>(command);
 }
 
 // Throws nothing.

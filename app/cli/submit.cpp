@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/cli/arguments/check_arguments.h"
 #include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
@@ -138,17 +139,19 @@ SlurmAnswer submit(const fs::path& file, const fs::path& project, const std::str
 
 int run(const SubmitArguments& a, Terminal& terminal) {
     terminal.set_unchanged("Nothing was submitted.");
+    check_arguments(a);
     const fs::path project = fs::absolute(without_slash(a.project));
     const std::vector<ItemEstimate> items = item_estimates(project, version());
     const std::vector<std::string> given_up = given_up_pieces(items);
     if (!given_up.empty() && !a.has_retry) {
+        const std::string name = shell_word(without_slash(a.project));
         throw InputError(
-            InputFault::use,
-            "three attempts have failed to make " + list_of_pieces(given_up) + "; qchopper work --status says where",
-            "mend that, then submit with --retry");
+            InputFault::use, "three attempts have failed to make " + list_of_pieces(given_up),
+            "see qchopper work " + name + " --status, mend that, then qchopper submit " + name + " --retry");
     }
     const bool is_all_made = std::ranges::all_of(items, [](const ItemEstimate& item) { return item.is_made; });
     if (!is_all_made && a.engine == "local") {
+        terminal.set_unchanged("Pieces that are made are kept, and the same command makes the rest.");
         work_locally(project, items, {a.shards, 1e6 * a.memory_mb.value_or(0)}, terminal);
         return run(GatherArguments{a.project}, terminal);
     }

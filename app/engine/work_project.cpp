@@ -13,7 +13,6 @@
 
 #include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
-#include "app/jobs/work_attempt.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
@@ -73,19 +72,10 @@ UnmadePiece unmade_piece(const WorkItem& item, const std::vector<SeenAttempt>& a
     UnmadePiece unmade;
     unmade.piece = item.job.piece.name;
     unmade.failures = failures(attempts);
-    const SeenAttempt* last = nullptr;
     for (const SeenAttempt& own : attempts) {
         unmade.bytes = std::max(unmade.bytes, own.attempt.process_bytes);
-        const bool is_later = last == nullptr || own.age_s < last->age_s;
-        if (is_later) last = &own;
+        if (!unmade.last || own.age_s < unmade.last->age_s) unmade.last = own;
     }
-    if (last == nullptr) return unmade;
-    unmade.is_at_work = !last->has_ended;
-    unmade.stage = last->attempt.stage;
-    unmade.because = last->attempt.because;
-    unmade.host = last->attempt.host;
-    unmade.process = last->attempt.process;
-    unmade.age_s = last->age_s;
     return unmade;
 }
 

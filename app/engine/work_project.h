@@ -10,11 +10,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/engine/open_project.h"
+#include "app/jobs/work_attempt.h"
 #include "app/jobs/work_item.h"
 #include "app/store/project_context.h"
 
@@ -33,14 +35,9 @@ std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> ef
 // An item without a result, and what is known of the attempts to make it.
 struct UnmadePiece {
     std::string piece;
-    bool is_at_work = false;
-    std::string stage;    // of the last attempt; empty: there was none
-    std::string because;  // why that failed, if it says so
-    std::string host;     // and the process on it
-    std::uint64_t process = 0;
-    double age_s = 0;          // of its last sign of life
-    std::size_t failures = 0;  // attempts that have ended without a result
-    std::uint64_t bytes = 0;   // peak memory of their processes
+    std::optional<SeenAttempt> last;  // the attempt that gave a sign of life last
+    std::size_t failures = 0;         // attempts that have ended without a result
+    std::uint64_t bytes = 0;          // peak memory of their processes
 };
 
 struct WorkAnswer {

@@ -19,17 +19,22 @@ constexpr auto names_of(ProgramOutcome) {
     return outcome_names;
 }
 
+template <class V, Of<SeenAttempt> T>
+void fields(V& v, T& seen) {
+    v("ended", seen.has_ended);
+    v("age_s", seen.age_s);
+    v("stage", seen.attempt.stage);
+    v("because", seen.attempt.because);
+    v("host", seen.attempt.host);
+    v("process", seen.attempt.process);
+}
+
 template <class V, Of<UnmadePiece> T>
 void fields(V& v, T& piece) {
     v("piece", piece.piece);
-    v("at_work", piece.is_at_work);
-    v("stage", piece.stage);
-    v("because", piece.because);
-    v("host", piece.host);
-    v("process", piece.process);
-    v("age_s", piece.age_s);
     v("failures", piece.failures);
     v("bytes", piece.bytes);
+    v("last", piece.last);
 }
 
 template <class V, Of<WorkedPiece> T>
@@ -95,19 +100,20 @@ std::string worked_line(const WorkedPiece& piece) {
 }
 
 std::string unmade_line(const UnmadePiece& piece) {
-    std::string line = "piece " + piece.piece + ": ";
-    const std::string where = piece.host + ", process " + std::to_string(piece.process);
+    const std::string line = "piece " + piece.piece + ": ";
+    if (!piece.last) return line + "not begun";
+    const WorkAttempt& attempt = piece.last->attempt;
     const std::string failed = counted(piece.failures, "attempt");
-    const std::string stage = piece.stage.empty() ? "the beginning" : piece.stage;
-    if (piece.host.empty()) return line + "not begun";
-    if (piece.is_at_work) {
-        line += "at work on " + where + ", at " + stage + "; sign of life " + fixed(piece.age_s, 0) + " s ago";
-        return piece.failures > 0 ? line + "; before, " + failed + " failed" : line;
+    const std::string where = attempt.host + ", process " + std::to_string(attempt.process) + ", at " +
+                              (attempt.stage.empty() ? "the beginning" : attempt.stage);
+    if (!piece.last->has_ended) {
+        return line + "at work on " + where + "; sign of life " + fixed(piece.last->age_s, 0) + " s ago" +
+               (piece.failures > 0 ? "; before, " + failed + " failed" : "");
     }
     if (piece.failures == 0) return line + "its result is missing or damaged";
-    line += failed + " failed, the last on " + where + ", at " + stage;
-    if (!piece.because.empty()) line += " (" + piece.because + ")";
-    return line + ", " + fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";
+    return line + failed + " failed, the last on " + where +
+           (attempt.because.empty() ? "" : " (" + attempt.because + ")") + ", " +
+           fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";
 }
 
 std::string json_lines(const std::vector<UnmadePiece>& pieces) {

@@ -19,8 +19,8 @@ std::string program_word(const PieceReport& piece);
 // "piece B: programs proven, 3 h 20 min", "piece C: no programs, the saw alone makes it".
 std::string worked_line(const WorkedPiece& piece);
 
-// "piece B: at work on node1, process 4711, replay; sign of life 4 s ago", "piece C: 2 attempts have failed, the last
-// in replay on node2 (out of memory), at most 800 MB".
+// "piece B: at work on node1, process 4711, at moves carved; sign of life 4 s ago", "piece C: 2 attempts failed, the
+// last on node2, process 4712, at moves carved (out of memory), 800 MB of memory at most".
 std::string unmade_line(const UnmadePiece& piece);
 
 // A line of JSON for each, and at its end a line feed.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double min_foam = 0.2;          // mm above a level that is worth a cut
 constexpr double allowance_share = 0.24;  // by which corners may be passed beside
-constexpr double rim_share = 0.4;         // of it, by which lines may pass beside a rim
+constexpr double rim_share = 0.4;         // of the allowance, by which lines may pass beside a rim
 constexpr double level_within = 0.05;     // mm
 constexpr double flats_apart = 1;         // mm; finishing takes less
 constexpr double cells_beside = 2.5;      // by which a pass goes on beyond the foam, so that it begins beside it

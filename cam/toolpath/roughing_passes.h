@@ -2,7 +2,7 @@
 //
 // mm, in the frame of the map. Every point of a pass is in the region. So is every cell under the line to the next one,
 // but for corners of cells of which less than an eighth of a cell is passed, or the line passes at most `beside` from a
-// way over neighbouring cells (tests/cam/toolpath/passes_and_links_test.cpp).
+// way over neighbouring cells (tests/cam/toolpath/roughing_passes_test.cpp).
 
 #pragma once
 

@@ -60,6 +60,7 @@ TEST(Child, RunsBesideThisOneAndAddsToAFile) {
     EXPECT_EQ(code_of(second), 128 + SIGTERM);
     Child none({"no-such-program-of-qchopper"}, log);
     EXPECT_EQ(code_of(none), 127);
+    EXPECT_THROW(Child({"true"}, folder.path() / "none" / "log"), std::system_error);
     std::ifstream file(log);
     std::string text;
     std::getline(file, text, '\0');

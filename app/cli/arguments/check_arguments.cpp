@@ -167,4 +167,12 @@ void check_arguments(const CellSimArguments& a) {
     if (a.drop.empty() && !a.list_faults) refuse("no drop folder is named", "pass --drop FOLDER");
 }
 
+void check_arguments(const SubmitArguments& a) {
+    const bool is_local = a.engine == "local";
+    if (is_local && a.is_only_written)
+        refuse("--print writes a script for Slurm", "leave --print or --engine local out");
+    if (is_local && !a.options.empty()) refuse("what follows -- is for sbatch", "leave it or --engine local out");
+    if (!is_local && a.memory_mb) refuse("--memory is for --engine local", "give Slurm -- --mem=SIZE");
+}
+
 }  // namespace qchopper

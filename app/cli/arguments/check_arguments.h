@@ -1,4 +1,4 @@
-// Checks which options go together and with the input, for the commands that take a scan or a project.
+// Checks which options go together and with the input.
 
 #pragma once
 
@@ -12,5 +12,6 @@ namespace qchopper {
 void check_arguments(const PrepareArguments& arguments);
 void check_arguments(const SegmentArguments& arguments);
 void check_arguments(const CellSimArguments& arguments);
+void check_arguments(const SubmitArguments& arguments);
 
 }  // namespace qchopper

@@ -288,9 +288,9 @@ struct Parser {
             "submit",
             "hand the items of a project to Slurm: an array of work, and gather after it; again, what is missing");
         add_project(c, submit.project);
-        CLI::Option* engine = c->add_option("--engine", submit.engine,
-                                            "slurm, or local: processes of one thread on this machine, then gather")
-                                  ->check(one_of({"slurm", "local"}));
+        c->add_option("--engine", submit.engine,
+                      "slurm, or local: processes of one thread on this machine, then gather")
+            ->check(one_of({"slurm", "local"}));
         c->add_option("--shards", submit.shards,
                       "tasks of the array (by the estimated time, a quarter of an hour each), or processes here (as "
                       "many as processors)")
@@ -298,8 +298,7 @@ struct Parser {
         c->add_option("--memory", submit.memory_mb,
                       "MB that the processes of --engine local may take together, as estimated (four fifths of what "
                       "is free)")
-            ->check(number_between(1, 1e9, "a number of MB from 1"))
-            ->needs(engine);
+            ->check(number_between(1, 1e9, "a number of MB from 1"));
         c->add_flag("--retry", submit.has_retry, "also pieces of which three attempts have failed");
         c->add_flag("--print", submit.is_only_written, "only write NAME.qch/work/slurm.sh");
         c->add_option("OPTIONS", submit.options, "after --: options of sbatch, such as -- --partition=fast");

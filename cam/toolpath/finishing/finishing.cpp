@@ -230,8 +230,8 @@ class SteepRegions {
     std::vector<std::size_t> region_;
 };
 
-// Short open passes that have a longer one within a stepover or two: on a bumpy piece half of all passes, for a tenth
-// of their length.
+// Short open passes that have a longer one within a stepover or two: on a bumpy piece a sixth of all passes, for a
+// fiftieth of their length.
 void leave_out_short_ones(std::vector<Pass>& passes, const HeightField& cl, double stepover) {
     const auto is_short = [&](const Pass& pass) { return !pass.is_closed && length_of(pass) < short_pass * stepover; };
     const auto squares = [&](std::size_t cells) {

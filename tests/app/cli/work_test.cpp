@@ -175,7 +175,7 @@ TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
     const json status = json::parse(run({"work", "parts.qch", "--status", "--json"}).out);
     EXPECT_GE(status["unmade"].size(), 1U);
     for (const json& piece : status["unmade"]) {
-        EXPECT_EQ(piece["at_work"], false) << piece;
+        EXPECT_TRUE(piece["last"].is_null() || piece["last"]["ended"] == true) << piece;
         EXPECT_LE(piece["failures"], 1) << piece;
     }
     EXPECT_EQ(run({"gather", "parts.qch"}).code, exit_missing);
@@ -189,7 +189,12 @@ TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
     EXPECT_TRUE(fs::exists(work / "local-1.log"));
     EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
     EXPECT_EQ(run({"submit", "parts.qch", "--engine", "none"}).code, exit_use);
-    EXPECT_EQ(run({"submit", "parts.qch", "--memory", "100"}).code, exit_use) << "it is for --engine local";
+    for (const Arguments& wrong : {Arguments{"--memory", "100"}, Arguments{"--engine", "local", "--print"},
+                                   Arguments{"--engine", "local", "--", "--partition=fast"}}) {
+        Arguments arguments{"submit", "parts.qch"};
+        arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run(arguments).code, exit_use) << wrong.back();
+    }
 }
 
 TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
