@@ -53,7 +53,7 @@ fs::path log_of(const fs::path& project, std::size_t process) {
 std::size_t processes_for(const std::vector<ItemEstimate>& items, std::size_t processes, double bytes) {
     std::vector<double> needed;
     for (const ItemEstimate& item : items) {
-        if (!item.is_made) needed.push_back(item.bytes);
+        if (!item.is_made && !item.is_given_up()) needed.push_back(item.bytes);
     }
     std::sort(needed.begin(), needed.end(), std::greater<>());
     needed.resize(std::min(needed.size(), processes));
@@ -72,9 +72,9 @@ void work_locally(const fs::path& project, const std::vector<ItemEstimate>& item
     std::vector<Child> children;
     for (std::size_t i = 0; i < count; ++i) {
         const std::string shard = std::to_string(i) + "/" + std::to_string(count);
-        children.emplace_back(
-            std::vector<std::string>{program, "work", project.string(), "--threads", "1", "--shard", shard},
-            log_of(project, i));
+        std::vector<std::string> words{program, "work", project.string(), "--threads", "1", "--shard", shard};
+        if (limits.has_retry) words.emplace_back("--retry");
+        children.emplace_back(words, log_of(project, i));
     }
     const ProjectContext context = terminal.context();
     bool is_stopping = false;

@@ -15,6 +15,7 @@ namespace qchopper {
 struct LocalLimits {
     std::optional<std::size_t> processes;  // nothing: as many as processors
     double bytes = 0;                      // of memory for all together; 0: four fifths of what is free
+    bool has_retry = false;                // as WorkOptions::has_retry
 };
 
 // How many processes may make the items that are left at once: the largest of them fit into the memory together, but

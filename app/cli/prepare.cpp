@@ -16,7 +16,7 @@ int run(const PrepareArguments& a, Terminal& terminal) {
     check_arguments(a);
     PrepareOptions options{version(), a.time_limit_s};
     options.has_items = a.items;
-    if (a.programs || a.no_programs || a.items) options.has_programs = a.programs;
+    if (a.programs || a.no_programs || a.items) options.has_programs = !a.no_programs;
     if (a.discard) options.discard = discard_from(*a.discard);
     ProjectChoices choices = choices_of(a);
     choices.on_unusual_size = unusual_size_check(a.size_ok);

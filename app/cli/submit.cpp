@@ -32,7 +32,6 @@ constexpr double most_shards = 1000;
 constexpr double times_estimate = 3;  // of time that is asked for
 constexpr double least_minutes = 10;
 constexpr double least_megabytes = 1000;
-constexpr std::size_t most_failures = 3;  // of a piece that is tried again without being told
 
 // What is asked of Slurm.
 struct ArrayJob {
@@ -54,7 +53,7 @@ ArrayJob array_job(const std::vector<ItemEstimate>& items, std::optional<std::si
         double left_s = 0;
         double bytes = 0;
         for (const std::size_t i : items_of({number, job.shards}, efforts)) {
-            if (items[i].is_made) continue;
+            if (items[i].is_made || items[i].is_given_up()) continue;
             left_s += items[i].seconds;
             bytes = std::max(bytes, items[i].bytes);
         }
@@ -69,7 +68,7 @@ ArrayJob array_job(const std::vector<ItemEstimate>& items, std::optional<std::si
 std::vector<std::string> given_up_pieces(const std::vector<ItemEstimate>& items) {
     std::vector<std::string> names;
     for (const ItemEstimate& item : items) {
-        if (!item.is_made && item.failures >= most_failures) names.push_back(item.piece);
+        if (item.is_given_up()) names.push_back(item.piece);
     }
     return names;
 }
@@ -80,7 +79,7 @@ std::string numbers(const std::vector<std::size_t>& tasks) {
     return text;
 }
 
-std::string script(const ArrayJob& job, const fs::path& project, const std::string& program) {
+std::string script(const ArrayJob& job, const fs::path& project, const std::string& program, bool has_retry) {
     return "#!/bin/sh\n"
            "# Written by qchopper submit.\n"
            "#SBATCH --job-name=qchopper --array=" +
@@ -92,7 +91,8 @@ std::string script(const ArrayJob& job, const fs::path& project, const std::stri
            "\"\n"
            "exec " +
            shell_word(program) + " work " + shell_word(project) +
-           " --threads \"$SLURM_CPUS_PER_TASK\" --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(job.shards) + "\"\n";
+           " --threads \"$SLURM_CPUS_PER_TASK\" --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(job.shards) + "\"" +
+           (has_retry ? " --retry" : "") + "\n";
 }
 
 // What Slurm says, or why it does not.
@@ -141,18 +141,23 @@ int run(const SubmitArguments& a, Terminal& terminal) {
     terminal.set_unchanged("Nothing was submitted.");
     check_arguments(a);
     const fs::path project = fs::absolute(without_slash(a.project));
-    const std::vector<ItemEstimate> items = item_estimates(project, version());
-    const std::vector<std::string> given_up = given_up_pieces(items);
-    if (!given_up.empty() && !a.has_retry) {
-        const std::string name = shell_word(without_slash(a.project));
-        throw InputError(
-            InputFault::use, "three attempts have failed to make " + list_of_pieces(given_up),
-            "see qchopper work " + name + " --status, mend that, then qchopper submit " + name + " --retry");
+    std::vector<ItemEstimate> items = item_estimates(project, version());
+    if (a.has_retry) {
+        for (ItemEstimate& item : items) item.failures = 0;
     }
-    const bool is_all_made = std::ranges::all_of(items, [](const ItemEstimate& item) { return item.is_made; });
+    const bool is_all_made = std::ranges::all_of(items, &ItemEstimate::is_made);
+    const auto is_left = [](const ItemEstimate& item) { return !item.is_made && !item.is_given_up(); };
+    if (const std::vector<std::string> given_up = given_up_pieces(items); !given_up.empty()) {
+        const std::string name = shell_word(without_slash(a.project));
+        const std::string what = "three attempts have failed to make " + list_of_pieces(given_up);
+        const std::string remedy =
+            "see qchopper work " + name + " --status, mend that, then qchopper submit " + name + " --retry";
+        if (std::ranges::none_of(items, is_left)) throw InputError(InputFault::use, what, remedy);
+        terminal.warn({what + ", which is left out; " + remedy});
+    }
     if (!is_all_made && a.engine == "local") {
         terminal.set_unchanged("Pieces that are made are kept, and the same command makes the rest.");
-        work_locally(project, items, {a.shards, 1e6 * a.memory_mb.value_or(0)}, terminal);
+        work_locally(project, items, {a.shards, 1e6 * a.memory_mb.value_or(0), a.has_retry}, terminal);
         return run(GatherArguments{a.project}, terminal);
     }
     const ArrayJob job = array_job(items, a.shards);
@@ -162,7 +167,7 @@ int run(const SubmitArguments& a, Terminal& terminal) {
     }
     const fs::path file = project / "work" / "slurm.sh";
     const std::string program = fs::read_symlink("/proc/self/exe").string();
-    write_file(file, script(job, project, program));
+    write_file(file, script(job, project, program, a.has_retry));
     terminal.message(file.string() + ": " + counted(job.tasks.size(), "task") + ", " + fixed(job.minutes, 0) +
                      " min and " + fixed(job.megabytes, 0) + " MB each");
     if (a.is_only_written) return exit_done;

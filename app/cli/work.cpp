@@ -4,7 +4,7 @@
 #include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/engine/prepare_project.h"
+#include "app/engine/work_project.h"
 #include "app/report/prepare_report.h"
 #include "app/report/program_report.h"
 #include "app/store/project_folder.h"
@@ -21,38 +21,40 @@ int run(const WorkArguments& a, Terminal& terminal) {
     std::vector<std::filesystem::path> inputs;
     inputs.reserve(a.inputs.size());
     for (const std::filesystem::path& input : a.inputs) inputs.push_back(without_slash(input));
-    const Shard shard = a.shard ? *shard_from(*a.shard) : Shard{};
+    WorkOptions options;
+    if (a.shard) options.shard = *shard_from(*a.shard);
+    options.has_retry = a.has_retry;
     const auto tell = [&](const WorkedPiece& piece) { terminal.message(worked_line(piece)); };
     const WorkAnswer answer =
-        a.status ? work_done(inputs, version()) : work_items(inputs, shard, version(), tell, terminal.context());
+        a.status ? work_done(inputs, version()) : work_items(inputs, options, version(), tell, terminal.context());
     terminal.show(lines(answer), document(answer));
-    return exit_done;
+    if (a.status || answer.unmade.empty()) return exit_done;
+    std::vector<std::string> names;
+    for (const UnmadePiece& piece : answer.unmade) names.push_back(piece.piece);
+    terminal.warn(
+        {"three attempts have failed to make " + list_of_pieces(names) + ", which is left out; --retry tries again"});
+    return exit_demand_broken;
 }
 
 int run(const GatherArguments& a, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const std::filesystem::path folder = without_slash(a.project);
-    const std::vector<UnmadePiece> unmade = take_results(folder, version(), terminal.context());
+    const GatherAnswer answer = gather_project(folder, a.make_missing, version(), terminal.context());
     const std::filesystem::path failed = folder / "work" / "failed.jsonl";
-    if (unmade.empty()) {
+    if (answer.prepared) {
         std::filesystem::remove(failed);
-    } else {
-        write_file(failed, json_lines(unmade));
+        return show(*answer.prepared, terminal);
     }
-    if (!unmade.empty() && !a.make_missing) {
-        std::vector<std::string> missing;
-        for (const UnmadePiece& piece : unmade) {
-            missing.push_back(piece.piece);
-            terminal.warn({unmade_line(piece)});
-        }
-        throw InputError(InputFault::missing,
-                         "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing) +
-                             "; work/failed.jsonl says what is known of them",
-                         "make them: qchopper work " + shell_word(folder) + ", or gather with --make-missing");
+    write_file(failed, json_lines(answer.unmade));
+    std::vector<std::string> missing;
+    for (const UnmadePiece& piece : answer.unmade) {
+        missing.push_back(piece.piece);
+        terminal.warn({unmade_line(piece)});
     }
-    PrepareOptions options{version(), {}};
-    options.has_programs = true;
-    return show(prepare_project(folder, {}, options, terminal.context()), terminal);
+    throw InputError(InputFault::missing,
+                     "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing) +
+                         "; work/failed.jsonl says what is known of them",
+                     "make them: qchopper work " + shell_word(folder) + ", or gather with --make-missing");
 }
 
 }  // namespace qchopper

@@ -156,7 +156,9 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
     if (!is_finished && !(may_be_unfinished && !project.jobs.empty())) {
         throw InputError(InputFault::use,
                          folder.string() + " is not finished" + (may_be_unfinished ? " and has no job yet" : ""),
-                         "finish it first: qchopper prepare " + shell_word(folder));
+                         std::filesystem::exists(items_folder(folder))
+                             ? "make and gather its programs: qchopper submit " + shell_word(folder)
+                             : "finish it first: qchopper prepare " + shell_word(folder));
     }
     ProjectJobs found{folder,
                       read_cell(folder / "cell.toml"),

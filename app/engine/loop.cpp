@@ -48,6 +48,7 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
         if (end) result.end = end;
     }
     if (observer.on_cut) observer.on_cut(result.end);
+    if (options.last == LoopStep::setups) result.prepared = project.set_up(result.end, observer, context);
     if (options.last == LoopStep::jobs) {
         const auto write = [&] {
             return project.write_outputs(result.end, options.program_version, observer, context);

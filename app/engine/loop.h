@@ -20,6 +20,7 @@ enum class LoopStep {
     cut,        // the search, to the stop rules
     review,     // setups of the pieces judge the cuts (review_cuts.h); a cut may be replaced
     cut_again,  // pieces of which the setups leave too much out of reach are cut on trial (planes_by_setups.h)
+    setups,     // of the jobs, which are not written
     jobs        // pieces, setups, jobs and pictures
 };
 
@@ -44,12 +45,12 @@ struct LoopOptions {
 
 struct LoopResult {
     std::optional<SearchEnd> end;             // of the last cutting; nothing: nothing was left to cut
-    std::optional<PreparedProject> prepared;  // after LoopStep::jobs
+    std::optional<PreparedProject> prepared;  // after LoopStep::setups and LoopStep::jobs
 };
 
 // Goes on where the project stands; a step that is done already is left out, but the search is run again if it is the
 // last step that is asked for. Where time runs out the steps of cutting that are left are passed over, and outputs are
-// those of the cuts so far. Without a cell there is no review. Throws what check_cell() throws for LoopStep::jobs, and
+// those of the cuts so far. Without a cell there is no review. Throws what check_cell() throws for these two, and
 // Cancelled; what was decided stays saved.
 LoopResult run_loop(OpenProject& project, const LoopOptions& options, const LoopObserver& observer,
                     const Context& context);

@@ -38,7 +38,8 @@ std::optional<ReviewOutcome> settled(const Project& project, const Segmentation&
     return std::nullopt;
 }
 
-void set_up(std::span<const Piece> pieces, Setups& setups, const LoopObserver& observer, const Context& context) {
+void choose_setups(std::span<const Piece> pieces, Setups& setups, const LoopObserver& observer,
+                   const Context& context) {
     StageTimer stage(context, "setups chosen");
     context.progress("setups chosen", 0, pieces.size());
     setups.map(pieces, context);
@@ -247,26 +248,57 @@ void OpenProject::replace_cut(const Segmentation& alone, CutReview review) {
     save();
 }
 
-PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
-                                           const LoopObserver& observer, const Context& context) {
+void OpenProject::take_pieces(std::vector<Piece> pieces, std::vector<PlacedSetup> setups) {
+    segmentation_.emplace();
+    segmentation_->cuts = project_.cuts;
+    segmentation_->pieces = std::move(pieces);
+    for (std::size_t i = 0; i < setups.size(); ++i) {
+        this->setups()->know(segmentation_->pieces[i], std::move(setups[i]));
+    }
+    are_pieces_taken_ = true;
+}
+
+// With their setups, and what joins them.
+PreparedProject OpenProject::pieces_for_jobs(const std::optional<SearchEnd>& end, const LoopObserver& observer,
+                                             const Context& context) {
     check_cell();
     const bool is_out_of_time = end && end->is_out_of_time();
     if (is_out_of_time) record_end(*end);
-    if (!end || is_out_of_time) write_current_pieces();
+    if ((!end || is_out_of_time) && !are_pieces_taken_) write_current_pieces();
     PreparedProject prepared{folder_, {}, setups()->cell(), max_unreachable(project_, setups()->cell()), {}};
     const std::vector<Piece>& pieces = segmentation().pieces;
     release_scan();
     prepared.joints = project_joints(segmentation(), &prepared.cell, context);
-    set_up(pieces, *setups(), observer, context);
+    choose_setups(pieces, *setups(), observer, context);
+    for (const PieceJoint& joint : prepared.joints.joints) {
+        prepared.joints.faces.push_back(joint_faces(joint, setups()->placed(pieces[joint.below]).setup(),
+                                                    setups()->placed(pieces[joint.above]).setup()));
+    }
+    return prepared;
+}
+
+PreparedProject OpenProject::set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer,
+                                    const Context& context) {
+    check_cell();
+    remove_jobs(folder_, project_);
+    PreparedProject prepared = pieces_for_jobs(end, observer, context);
+    for (const Piece& piece : segmentation().pieces) {
+        prepared.pieces.push_back(report_without_job(folder_, project_, piece, *setups()));
+    }
+    save_project(folder_, project_);
+    prepared.project = project_;
+    return prepared;
+}
+
+PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
+                                           const LoopObserver& observer, const Context& context) {
+    PreparedProject prepared = pieces_for_jobs(end, observer, context);
+    const std::vector<Piece>& pieces = segmentation().pieces;
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version,
                                  observer.on_job, context);
-    for (const PieceJoint& joint : prepared.joints.joints) {
-        prepared.joints.faces.push_back(joint_faces(joint, prepared.pieces[joint.below].piece_setup.setup(),
-                                                    prepared.pieces[joint.above].piece_setup.setup()));
-    }
     write_sheets(folder_, project_, segmentation(), *setups(), prepared.joints.joints, context);
     write_pictures(folder_, pieces, *setups(), context);
-    project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
+    project_.stage = end && end->is_out_of_time() ? Stage::cutting : Stage::done;
     const StageTimer stage(context, "project saved");
     save_project(folder_, project_);
     prepared.project = project_;

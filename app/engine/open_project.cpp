@@ -39,8 +39,7 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
 }  // namespace
 
 bool PreparedProject::all_fit() const {
-    return std::all_of(pieces.begin(), pieces.end(),
-                       [](const PieceReport& p) { return !p.job.empty() || p.is_only_sawn; });
+    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return p.fits(); });
 }
 
 bool PreparedProject::has_programs() const {
@@ -264,6 +263,7 @@ bool OpenProject::decide_setup(const SetupOrder& order) {
     if (committed_setup_order(project_.history, order.piece) == order) return false;
     decide(project_.history, order);
     remove_sheets(folder_);
+    remove_items(folder_);
     std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order.piece; });
     project_.beam.reset();
     save();
@@ -294,6 +294,7 @@ std::optional<Decision> OpenProject::change_committed(const Decision* changed, s
     if (changed == nullptr) return std::nullopt;
     if (const auto* order = std::get_if<SetupOrder>(changed)) {
         remove_sheets(folder_);
+        remove_items(folder_);
         std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order->piece; });
     } else if (!std::holds_alternative<WeightsChange>(*changed)) {
         remove_outputs(folder_, project_);
@@ -329,6 +330,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
 
 void OpenProject::set_settings(const SearchSettings& settings) {
     if (settings == project_.settings) return;
+    remove_items(folder_);
     const bool needs_same = settings.needs_same(project_.settings);
     if (settings.objectives != project_.settings.objectives) cache_.reset();
     project_.settings = settings;

@@ -23,7 +23,6 @@
 
 namespace qchopper {
 
-// A finished project, and how each of its pieces is milled.
 // Of what programs are made from, with the estimated time of making them: CPU seconds of one processor of 2026.
 struct WrittenItems {
     std::size_t count = 0;
@@ -31,6 +30,7 @@ struct WrittenItems {
     double largest_s = 0;
 };
 
+// A project of which all pieces are set up, and how each of them is milled.
 struct PreparedProject {
     std::filesystem::path folder;
     Project project;
@@ -148,6 +148,13 @@ class OpenProject {
     // whether the rules hold. Ends the review, unless time runs out. Returns the end of that cutting, if there was any.
     std::optional<SearchEnd> cut_again(const OnDecision& on_decision, const Context& context,
                                        const std::optional<TimeLimit>& time_limit);
+    // The setups of all pieces, without jobs; those of an earlier run are removed. `end` as in write_outputs(). Throws
+    // what check_cell throws.
+    PreparedProject set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer, const Context& context);
+    // Takes pieces and setups that another run has made, so that write_outputs() needs no scan and chooses no setup.
+    // Nothing but that may follow. Preconditions: they are those of the project, which has a cell and in which nothing
+    // is left to cut.
+    void take_pieces(std::vector<Piece> pieces, std::vector<PlacedSetup> setups);
     // Writes pieces, jobs and pictures. `end` is that of the cutting before it in this run. If time ran out the stage
     // stays Stage::cutting, so that the project can go on. Throws what check_cell throws.
     PreparedProject write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
@@ -184,6 +191,8 @@ class OpenProject {
     void release_scan();
     void save();
     void write_current_pieces();
+    PreparedProject pieces_for_jobs(const std::optional<SearchEnd>& end, const LoopObserver& observer,
+                                    const Context& context);
 
     std::filesystem::path folder_;
     Project project_;
@@ -195,6 +204,7 @@ class OpenProject {
     std::unique_ptr<EvaluationCache> cache_;
     std::optional<Setups> setups_;
     bool pieces_are_written_ = false;
+    bool are_pieces_taken_ = false;
 };
 
 }  // namespace qchopper

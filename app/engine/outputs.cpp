@@ -81,6 +81,20 @@ void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, Se
                draw_unreachable(pieces, shifts, milled, setups.counts_narrow(), context));
 }
 
+void remove_jobs(const fs::path& folder, Project& project) {
+    if (project.stage != Stage::done) return;
+    project.jobs.clear();
+    project.stage = Stage::cut;
+    save_project(folder, project);
+    for (const char* name : {"jobs", "pictures"}) remove_but(folder / name, {});
+    remove_sheets(folder);
+}
+
+void remove_items(const fs::path& folder) {
+    std::error_code error;
+    fs::remove_all(folder / "work", error);
+}
+
 void remove_outputs(const fs::path& folder, Project& project) {
     if (project.stage != Stage::cutting || !project.jobs.empty()) {
         project.jobs.clear();
@@ -92,8 +106,7 @@ void remove_outputs(const fs::path& folder, Project& project) {
     }
     for (const char* name : {"pieces", "jobs", "pictures"}) remove_but(folder / name, {});
     remove_sheets(folder);
-    std::error_code error;
-    fs::remove_all(folder / "work", error);  // items of pieces that are decided about again (work_project.h)
+    remove_items(folder);
 }
 
 }  // namespace qchopper

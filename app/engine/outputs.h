@@ -26,8 +26,14 @@ void write_pieces(const std::filesystem::path& folder, const Segmentation& segme
 void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, Setups& setups,
                     const Context& context);
 
-// Saves the project with Stage::cutting, if it has another stage or jobs, then removes pieces, jobs and pictures. A
-// program that is killed at any moment leaves a consistent project (tests/app/engine/killed_test.cpp).
+// Removes jobs, sheets and pictures of a finished project, and saves it with Stage::cut before that.
+void remove_jobs(const std::filesystem::path& folder, Project& project);
+
+// Removes what other processes make programs from, and what they have made (work_project.h).
+void remove_items(const std::filesystem::path& folder);
+
+// Saves the project with Stage::cutting, if it has another stage or jobs, then removes pieces, jobs, pictures and
+// items. A program that is killed at any moment leaves a consistent project (tests/app/engine/killed_test.cpp).
 void remove_outputs(const std::filesystem::path& folder, Project& project);
 
 }  // namespace qchopper

@@ -42,8 +42,14 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
     LoopOptions loop;
     loop.program_version = options.program_version;
     if (options.time_limit_s) loop.time_limit.emplace(TimeLimit{*options.time_limit_s});
+    if (options.has_items) loop.last = LoopStep::setups;
     PreparedProject prepared = *run_loop(project, loop, observer, context).prepared;
-    if (options.has_items) prepared.items = write_items(project, options.program_version, context);
+    if (options.has_items && project.project().stage == Stage::cutting) {
+        context.warn({"no items are written before the cutting has ended; go on with: qchopper prepare " +
+                      shell_word(project.folder()) + " --items"});
+    } else if (options.has_items) {
+        prepared.items = write_items(project, prepared.joints.joints, options.program_version, context);
+    }
     return prepared;
 }
 

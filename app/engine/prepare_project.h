@@ -21,7 +21,7 @@ struct PrepareOptions {
     // of a new one do.
     std::optional<bool> has_programs = {};
     std::optional<DiscardRequest> discard = {};  // decided before the search
-    bool has_items = false;                      // whether items are written at the end (work_project.h)
+    bool has_items = false;                      // whether items are written in place of jobs (work_project.h)
 };
 
 // Makes a project of a scan. Without a stop rule in the choices, or with those of the preset carve, every piece must

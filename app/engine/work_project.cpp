@@ -11,13 +11,17 @@
 #include <numeric>
 #include <utility>
 
+#include "app/engine/loop.h"
+#include "app/engine/outputs.h"
+#include "app/engine/prepare_project.h"
+#include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_jobs.h"
 #include "app/jobs/piece_program.h"
+#include "app/store/project_folder.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "base/shared_progress.h"
-#include "segment/joint/piece_joints.h"
 
 namespace qchopper {
 namespace {
@@ -26,10 +30,6 @@ namespace fs = std::filesystem;
 
 WorkItem read_item(const fs::path& file, const std::string& program_version) {
     return item_from(read_file(file), file, program_version);
-}
-
-fs::path items_folder(const fs::path& project) {
-    return project / "work" / "items";
 }
 
 fs::path results_of(const fs::path& item) {
@@ -79,9 +79,66 @@ UnmadePiece unmade_piece(const WorkItem& item, const std::vector<SeenAttempt>& a
     return unmade;
 }
 
+// The items of all pieces of a project, in their order.
+std::vector<WorkItem> items_of_project(OpenProject& project, const std::string& program_version,
+                                       const ProjectContext& context) {
+    const std::string write_again = "qchopper prepare " + shell_word(project.folder()) + " --items";
+    const std::vector<fs::path> files = items_in(project.folder());
+    const Bytes cell = read_file(project.folder() / "cell.toml", settings_limit);
+    std::vector<WorkItem> items;
+    for (const fs::path& file : files) {
+        context.check_cancelled();
+        context.progress("items read", items.size(), files.size());
+        items.push_back(read_item(file, program_version));
+        if (items.back().cell_file != cell) {
+            throw InputError(InputFault::use, file.string() + " is of another cell file than the project has now",
+                             write_again);
+        }
+    }
+    std::ranges::sort(items, {}, [](const WorkItem& item) { return item.job.piece_no; });
+    const Uuid id = project_id(project.project());
+    const auto is_of = [&](const WorkItem& item, const SolidRecord& piece) {
+        return item.job.piece.name == piece.name && item.job.project_id == id;
+    };
+    if (!std::ranges::equal(items, project.project().pieces, is_of)) {
+        throw InputError(InputFault::missing,
+                         "the items in " + items_folder(project.folder()).string() + " are not those of its pieces",
+                         write_again);
+    }
+    return items;
+}
+
+// Copies whole results into the cache, where write_jobs() finds them.
+std::vector<UnmadePiece> take_results(const fs::path& folder, const std::vector<WorkItem>& items,
+                                      const ProjectContext& context) {
+    const fs::path results = folder / "work" / "results";
+    std::vector<UnmadePiece> unmade;
+    fs::create_directories(folder / "cache");
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        context.check_cancelled();
+        context.progress("results checked", i, items.size());
+        const WorkItem& item = items[i];
+        if (!item.has_program()) continue;
+        if (result_of(item, results)) {
+            write_file(folder / "cache" / item.result, read_file(results / item.result));
+        } else {
+            unmade.push_back(unmade_piece(item, attempts_at(item.result, folder / "work" / "attempts")));
+        }
+    }
+    std::ranges::sort(unmade, {}, &UnmadePiece::piece);
+    return unmade;
+}
+
 // The project that all items are of; empty: of several, or of none.
 fs::path project_of(const std::vector<fs::path>& inputs) {
     return inputs.size() == 1 && inputs.front().extension() != item_ending ? inputs.front() : fs::path();
+}
+
+// Of an item that is not to be tried again: nothing else is.
+std::optional<UnmadePiece> given_up(const WorkItem& item, const fs::path& file) {
+    const std::vector<SeenAttempt> attempts = attempts_at(item.result, attempts_of(file));
+    if (failures(attempts) < most_failures || result_of(item, results_of(file))) return std::nullopt;
+    return unmade_piece(item, attempts);
 }
 
 // work_on() with a record of the attempt, unless the result is there.
@@ -116,38 +173,50 @@ std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> ef
     return own;
 }
 
-WrittenItems write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context) {
+WrittenItems write_items(OpenProject& project, std::span<const PieceJoint> joints, const std::string& program_version,
+                         const ProjectContext& context) {
     const Cell& cell = project.setups()->cell();
     const std::string because = no_programs_for(cell);
     if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
     const Segmentation& segmentation = project.segmentation();
-    const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell), context);
-    fs::remove_all(project.folder() / "work");
+    remove_items(project.folder());
     fs::create_directories(items_folder(project.folder()));
     WrittenItems written;
     for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
         context.check_cancelled();
         context.progress("items written", i, segmentation.pieces.size());
-        const std::optional<WorkItem> item =
+        const WorkItem item =
             item_of(project.folder(), project.project(), segmentation, i, *project.setups(), joints, program_version);
-        if (!item) continue;
-        write_file(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), to_bytes(*item));
+        write_file(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), to_bytes(item));
+        if (!item.has_program()) continue;
         ++written.count;
-        written.all_s += item->effort;
-        written.largest_s = std::max(written.largest_s, item->effort);
+        written.all_s += item.effort;
+        written.largest_s = std::max(written.largest_s, item.effort);
     }
     return written;
 }
 
-WorkAnswer work_items(const std::vector<fs::path>& inputs, const Shard& shard, const std::string& program_version,
-                      const std::function<void(const WorkedPiece&)>& on_piece, const ProjectContext& context) {
-    const std::vector<fs::path> items = items_of_inputs(inputs);
+WorkAnswer work_items(const std::vector<fs::path>& inputs, const WorkOptions& options,
+                      const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
+                      const ProjectContext& context) {
+    std::vector<fs::path> items;
     std::vector<double> efforts;
-    efforts.reserve(items.size());
-    for (const fs::path& item : items) efforts.push_back(read_item(item, program_version).effort);
-    const std::vector<std::size_t> own = items_of(shard, efforts);
+    for (const fs::path& file : items_of_inputs(inputs)) {
+        const WorkItem item = read_item(file, program_version);
+        if (!item.has_program()) continue;
+        items.push_back(file);
+        efforts.push_back(item.effort);
+    }
+    WorkAnswer answer{project_of(inputs), options.shard, items.size(), {}};
+    std::vector<std::size_t> own = items_of(options.shard, efforts);
+    std::erase_if(own, [&](std::size_t i) {
+        if (options.has_retry) return false;
+        std::optional<UnmadePiece> piece = given_up(read_item(items[i], program_version), items[i]);
+        if (piece) answer.unmade.push_back(*std::move(piece));
+        return piece.has_value();
+    });
+    std::ranges::sort(answer.unmade, {}, &UnmadePiece::piece);
     context.saved("Programs that are made are kept, and the same command makes the rest.");
-    WorkAnswer answer{project_of(inputs), shard, items.size(), {}};
     answer.pieces.resize(own.size());
     SharedProgress progress(context, "programs made", own.size());
     std::mutex telling;
@@ -194,6 +263,7 @@ std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::stri
     std::vector<ItemEstimate> estimates;
     for (const fs::path& file : items_in(folder)) {
         const WorkItem item = read_item(file, program_version);
+        if (!item.has_program()) continue;
         const Vec3 size = item.job.setup.block.size;
         const double m2 = 2e-6 * (size.x * size.y + size.y * size.z + size.z * size.x);
         estimates.push_back({item.job.piece.name, item.effort, at_least + per_m2 * m2,
@@ -204,11 +274,12 @@ std::vector<ItemEstimate> item_estimates(const fs::path& folder, const std::stri
 }
 
 WorkAnswer work_done(const std::vector<fs::path>& inputs, const std::string& program_version) {
-    const std::vector<fs::path> items = items_of_inputs(inputs);
-    WorkAnswer answer{project_of(inputs), {}, items.size(), {}};
+    WorkAnswer answer{project_of(inputs), {}, 0, {}};
     std::map<std::pair<std::string, std::uint64_t>, double> processes;  // by host and number
-    for (const fs::path& file : items) {
+    for (const fs::path& file : items_of_inputs(inputs)) {
         const WorkItem item = read_item(file, program_version);
+        if (!item.has_program()) continue;
+        ++answer.piece_count;
         const std::vector<SeenAttempt> attempts = attempts_at(item.result, attempts_of(file));
         for (const SeenAttempt& own : attempts) {
             double& spent = processes[{own.attempt.host, own.attempt.process}];
@@ -225,23 +296,37 @@ WorkAnswer work_done(const std::vector<fs::path>& inputs, const std::string& pro
     return answer;
 }
 
-std::vector<UnmadePiece> take_results(const fs::path& folder, const std::string& program_version,
-                                      const ProjectContext& context) {
-    std::vector<UnmadePiece> unmade;
-    fs::create_directories(folder / "cache");
-    const std::vector<fs::path> items = items_in(folder);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        context.check_cancelled();
-        context.progress("results checked", i, items.size());
-        const WorkItem item = read_item(items[i], program_version);
-        const fs::path result = results_of(items[i]) / item.result;
-        if (result_of(item, results_of(items[i]))) {
-            write_file(folder / "cache" / item.result, read_file(result));
-        } else {
-            unmade.push_back(unmade_piece(item, attempts_at(item.result, attempts_of(items[i]))));
+GatherAnswer gather_project(const fs::path& folder, bool makes_missing, const std::string& program_version,
+                            const ProjectContext& context) {
+    GatherAnswer answer;
+    {
+        LockedProject open(folder, {}, context);
+        std::vector<WorkItem> items = items_of_project(open.project, program_version, context);
+        answer.unmade = take_results(folder, items, context);
+        if (!answer.unmade.empty() && !makes_missing) return answer;
+        context.saved("Programs that are made are kept, and the same command goes on with them.");
+        const bool is_refused = std::ranges::any_of(items, [&](const WorkItem& item) {
+            const auto result = item.has_program() ? result_of(item, folder / "cache") : std::nullopt;
+            return result && result->is_machine_refusing;
+        });
+        if (!is_refused) {
+            std::vector<Piece> pieces;
+            std::vector<PlacedSetup> setups;
+            for (WorkItem& item : items) {
+                pieces.push_back(std::move(item.job.piece));
+                setups.push_back(std::move(item.piece_setup));
+            }
+            open.project.set_has_programs(true);
+            open.project.take_pieces(std::move(pieces), std::move(setups));
+            answer.prepared = open.project.write_outputs({}, program_version, {}, context);
+            const auto is_refusing = [](const PieceReport& piece) { return piece.is_machine_refusing; };
+            if (std::ranges::none_of(answer.prepared->pieces, is_refusing)) return answer;
         }
     }
-    return unmade;
+    PrepareOptions options{program_version, {}};
+    options.has_programs = true;
+    answer.prepared = prepare_project(folder, {}, options, context);
+    return answer;
 }
 
 }  // namespace qchopper

@@ -1,5 +1,5 @@
 // Programs of the pieces of a project by several processes, on one machine or on many: prepare writes an item per
-// piece, work makes the programs of some of them, and gather takes the results.
+// piece, work makes the programs of some of them, and gather writes the jobs from items and results.
 //
 // Items and results lie in work/ of the project and depend on nothing else (docs/developer/formats/work-folder.md). The
 // jobs are the same to the byte as if prepare had made their programs itself (tests/app/cli/work_test.cpp). What is
@@ -19,6 +19,7 @@
 #include "app/jobs/work_attempt.h"
 #include "app/jobs/work_item.h"
 #include "app/store/project_context.h"
+#include "segment/joint/piece_joints.h"
 
 namespace qchopper {
 
@@ -40,25 +41,35 @@ struct UnmadePiece {
     std::uint64_t bytes = 0;          // peak memory of their processes
 };
 
+// So many attempts to make a piece may fail before it is left out, unless it is asked for.
+constexpr std::size_t most_failures = 3;
+
+struct WorkOptions {
+    Shard shard;
+    bool has_retry = false;  // whether pieces are tried again of which most_failures attempts have failed
+};
+
 struct WorkAnswer {
     std::filesystem::path folder;  // of the project; empty: of several, or of none
     Shard shard;
-    std::size_t piece_count = 0;           // items in all
+    std::size_t piece_count = 0;           // in all, of those that get a program
     std::vector<WorkedPiece> pieces;       // of the shard, in the order of their names
-    std::vector<UnmadePiece> unmade = {};  // by name; work_done() alone
+    std::vector<UnmadePiece> unmade = {};  // by name: all of them of work_done(), of work_items() those left out
     double spent_s = 0;                    // CPU time of all processes that have worked on them
     double left_s = 0;                     // of the unmade ones, as estimated
 };
 
-// Writes work/items/<piece>.qitem of every piece that gets a program, in place of those that are there. Throws
-// InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
-WrittenItems write_items(OpenProject& project, const std::string& program_version, const ProjectContext& context);
+// Writes work/items/<piece>.qitem of every piece, in place of those that are there; those that get a program are
+// counted. `joints` are those of all pieces. Throws InputError (use) for a cell whose jobs get no programs, what
+// write_file throws, Cancelled.
+WrittenItems write_items(OpenProject& project, std::span<const PieceJoint> joints, const std::string& program_version,
+                         const ProjectContext& context);
 
 // Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
 // results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a
 // time. A piece that fails does not keep the others from being made. Throws InputError (missing) if there is no item,
 // what read_file and item_from() throw, Cancelled; at the end the first failure.
-WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const Shard& shard,
+WorkAnswer work_items(const std::vector<std::filesystem::path>& inputs, const WorkOptions& options,
                       const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
                       const ProjectContext& context);
 
@@ -70,6 +81,7 @@ struct ItemEstimate {
     double bytes = 0;
     bool is_made = false;      // its result is there
     std::size_t failures = 0;  // attempts that have ended without it
+    bool is_given_up() const { return !is_made && failures >= most_failures; }
 };
 // By name. Throws as work_items() does.
 std::vector<ItemEstimate> item_estimates(const std::filesystem::path& folder, const std::string& program_version);
@@ -77,9 +89,17 @@ std::vector<ItemEstimate> item_estimates(const std::filesystem::path& folder, co
 // What the results of these inputs hold and what is known of the others; nothing is made. Throws as work_items() does.
 WorkAnswer work_done(const std::vector<std::filesystem::path>& inputs, const std::string& program_version);
 
-// Checks the results of a project and copies those that are whole into its cache, where prepare finds them. The pieces
-// whose result is missing or damaged. Throws as work_items() does.
-std::vector<UnmadePiece> take_results(const std::filesystem::path& folder, const std::string& program_version,
-                                      const ProjectContext& context);
+struct GatherAnswer {
+    std::vector<UnmadePiece> unmade;          // whose result is missing or damaged, by name
+    std::optional<PreparedProject> prepared;  // with jobs; nothing: something is unmade, and was not to be made here
+};
+
+// Writes the jobs of a project from its items and the whole results of them, which are copied into its cache. Needs no
+// scan and chooses no setup, unless the arm does not follow the toolpath of a piece: then it goes on as prepare does,
+// which may cut again. `makes_missing`: makes the programs of the unmade ones. Throws what LockedProject throws,
+// InputError (missing) if there is no item or those of other pieces, (use) if the cell file is another one since, what
+// work_items() and prepare_project() throw.
+GatherAnswer gather_project(const std::filesystem::path& folder, bool makes_missing, const std::string& program_version,
+                            const ProjectContext& context);
 
 }  // namespace qchopper

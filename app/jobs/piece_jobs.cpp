@@ -71,6 +71,17 @@ std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& proj
     return access_advice(input, cell);
 }
 
+// What is known before its job is written.
+PieceReport report_of(const fs::path& folder, const Project& project, const Piece& piece,
+                      const PlacedSetup& piece_setup, const Cell& cell) {
+    PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), piece_setup, {}};
+    report.piece_setup.choice.states.clear();
+    const Setup& setup = piece_setup.setup();
+    report.advice = advice_for(folder, project, piece, setup.access, with_tools(cell, setup.tools));
+    report.is_only_sawn = is_only_sawn(setup, *piece.mesh);
+    return report;
+}
+
 // What all jobs of a run have in common.
 struct JobOrders {
     const fs::path& folder;
@@ -188,11 +199,7 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
 MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
-    MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), piece_setup, {}}, {}};
-    made.report.piece_setup.choice.states.clear();
-    made.report.advice = advice_for(orders.folder, orders.project, piece, piece_setup.setup().access,
-                                    with_tools(orders.cell, piece_setup.setup().tools));
-    made.report.is_only_sawn = is_only_sawn(piece_setup.setup(), *piece.mesh);
+    MadeJob made{report_of(orders.folder, orders.project, piece, piece_setup, orders.cell), {}};
     if (made.report.is_only_sawn || !piece_setup.fits()) {
         remove_jobs(orders.folder, piece.name);
         return made;
@@ -314,17 +321,19 @@ void tell_kept(const std::vector<PieceReport>& reports, const Context& context) 
 
 }  // namespace
 
-std::optional<WorkItem> item_of(const fs::path& folder, Project project, const Segmentation& segmentation,
-                                std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
-                                const std::string& program_version) {
+WorkItem item_of(const fs::path& folder, const Project& project, const Segmentation& segmentation, std::size_t index,
+                 Setups& setups, std::span<const PieceJoint> joints, const std::string& program_version) {
     const Piece& piece = segmentation.pieces[index];
     const PlacedSetup& piece_setup = setups.placed(piece);
-    if (is_only_sawn(piece_setup.setup(), *piece.mesh) || !piece_setup.fits()) return std::nullopt;
-    project.has_programs = true;
     const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
     const JobInput input = job_input(orders, index, piece_setup);
+    const bool has_program = !is_only_sawn(piece_setup.setup(), *piece.mesh) && piece_setup.fits();
     return work_item(input, piece_setup, read_file(folder / "cell.toml", settings_limit), source_of(orders, input).fine,
-                     kept_file(orders, input).filename().string());
+                     has_program ? kept_file(orders, input).filename().string() : std::string());
+}
+
+PieceReport report_without_job(const fs::path& folder, const Project& project, const Piece& piece, Setups& setups) {
+    return report_of(folder, project, piece, setups.placed(piece), setups.cell());
 }
 
 PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,

@@ -41,15 +41,19 @@ struct PieceReport {
     double length_mm = 0;
     bool has_kept_programs = false;  // an earlier run made and proved them (kept_programs.h)
     bool is_only_sawn = false;       // the saw alone makes it (cam/job/glue_faces.h)
-    bool is_proven() const;          // every part is; false without a program
+    bool fits() const { return is_only_sawn || piece_setup.fits(); }
+    bool is_proven() const;  // every part is; false without a program
 };
 
-// What the programs of one piece are made from, also where prepare was asked for none; nothing of a piece that does not
-// fit the cell or that the saw alone makes. write_jobs() takes the file WorkItem::result from the project's cache.
-// `index` and `joints` as in write_job().
-std::optional<WorkItem> item_of(const std::filesystem::path& folder, Project project, const Segmentation& segmentation,
-                                std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
-                                const std::string& program_version);
+// What programs and job of one piece are made from, also where prepare was asked for no programs. write_jobs() takes
+// the file WorkItem::result from the project's cache. `index` and `joints` as in write_job().
+WorkItem item_of(const std::filesystem::path& folder, const Project& project, const Segmentation& segmentation,
+                 std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
+                 const std::string& program_version);
+
+// What is told of a piece before its job is written.
+PieceReport report_without_job(const std::filesystem::path& folder, const Project& project, const Piece& piece,
+                               Setups& setups);
 
 // Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell and the saw alone does not make
 // it, else removes them, and records them in the project, which is not saved. `index` is that of the piece in the

@@ -164,6 +164,12 @@ const PlacedSetup& Setups::placed(const Piece& piece) {
     return once(stages_of(piece).placed, [&] { return placed_of(piece, mapped(piece), {}); });
 }
 
+void Setups::know(const Piece& piece, PlacedSetup setup) {
+    Stages& stages = stages_of(piece);
+    stages.mapped = setup;
+    stages.placed = std::move(setup);
+}
+
 void Setups::keep_only(std::span<const Piece> pieces) {
     for (auto& [mesh, stages] : stages_) {
         const bool is_kept = std::any_of(pieces.begin(), pieces.end(),

@@ -74,6 +74,9 @@ class Setups {
     void map(std::span<const Piece> pieces, const Context& context);
     void place(std::span<const Piece> pieces, const Context& context);
 
+    // Takes a setup that was worked out before. Precondition: it is what placed() would make of the piece.
+    void know(const Piece& piece, PlacedSetup setup);
+
     // Forgets the setups of all other pieces.
     void keep_only(std::span<const Piece> pieces);
 

@@ -1,11 +1,14 @@
-// The manifest of a job holds its setup, caps and half-spaces with numbers that are read as they were written; beside
-// it stand the mesh to the bit, the regions of the reachability, and the text of the cell file. O(bytes).
+// The manifest of a job holds its setup, caps and half-spaces with numbers that are read as they were written. The
+// other setups stand as manifests of the jobs that they would make; beside them the mesh to the bit, the reachability,
+// and the text of the cell file. O(bytes).
 
 #include "app/jobs/work_item.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "app/jobs/kept_programs.h"
@@ -13,6 +16,7 @@
 #include "app/jobs/program_effort.h"
 #include "app/store/caches/cache_file.h"
 #include "base/error.h"
+#include "base/json_fields.h"
 #include "base/printable.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/manifest.h"
@@ -22,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "qchopper item 1";
+constexpr const char* mark = "qchopper item 2";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
     throw InputError(InputFault::mesh, file.string() + " " + what,
@@ -53,44 +57,134 @@ std::uint8_t below(CacheReader& in, std::uint8_t count, const fs::path& file) {
     return value;
 }
 
-void put(CacheWriter& out, const RegionReachability& region) {
-    out.put(region.orientation);
-    out.put(region.poses);
-    out.put(static_cast<std::uint8_t>(region.holds));
-    const ArmConfiguration& arm = region.configuration;
-    for (const bool is : {arm.is_back, arm.is_elbow_negative, arm.is_wrist_flipped}) {
-        out.put(static_cast<std::uint8_t>(is));
-    }
-    out.put(region.redundancy_angle);
-    out.put(region.relative);
+// What is read for a number of an enumeration with so many values.
+template <class Enum>
+Enum one_of(CacheReader& in, Enum last, const fs::path& file) {
+    return static_cast<Enum>(below(in, static_cast<std::uint8_t>(static_cast<std::uint8_t>(last) + 1), file));
 }
 
-RegionReachability region_from(CacheReader& in) {
-    RegionReachability region;
-    region.orientation = in.get<std::size_t>();
-    region.poses = in.get<std::size_t>();
-    region.holds = in.get<std::uint8_t>() != 0;
-    ArmConfiguration& arm = region.configuration;
-    for (bool* is : {&arm.is_back, &arm.is_elbow_negative, &arm.is_wrist_flipped}) *is = in.get<std::uint8_t>() != 0;
-    region.redundancy_angle = in.get<double>();
-    region.relative = in.get<double>();
-    return region;
+// Their values one by one, written by the first and read by the second.
+struct Writing {
+    CacheWriter& out;
+    template <class T>
+    void operator()(const T& value) {
+        if constexpr (std::is_enum_v<T>) {
+            out.put(static_cast<std::uint8_t>(value));
+        } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+            out.put_all(value);
+        } else {
+            out.put(value);
+        }
+    }
+};
+
+struct Reading {
+    CacheReader& in;
+    const fs::path& file;
+    template <class T>
+    void operator()(T& value) {
+        if constexpr (std::is_same_v<T, std::string>) {
+            value = in.text();
+        } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+            value = in.get_all<double>();
+        } else if constexpr (std::is_same_v<T, bool>) {
+            value = in.get<std::uint8_t>() != 0;
+        } else if constexpr (std::is_same_v<T, Remedy>) {
+            value = one_of(in, Remedy::cut, file);
+        } else if constexpr (std::is_same_v<T, PoseKind>) {
+            value = one_of(in, PoseKind::tool_change, file);
+        } else if constexpr (std::is_same_v<T, PoseCheck>) {
+            value = one_of(in, PoseCheck::tool_to_arm, file);
+        } else {
+            value = in.get<T>();
+        }
+    }
+};
+
+template <class V, Of<Vec3> T>
+void each(V& v, T& vector) {
+    for (auto* x : {&vector.x, &vector.y, &vector.z}) v(*x);
+}
+
+template <class V, Of<RegionReachability> T>
+void each(V& v, T& region) {
+    v(region.orientation);
+    v(region.poses);
+    v(region.holds);
+    v(region.configuration.is_back);
+    v(region.configuration.is_elbow_negative);
+    v(region.configuration.is_wrist_flipped);
+    v(region.redundancy_angle);
+    v(region.relative);
+}
+
+template <class V, Of<ReachabilityPose> T>
+void each(V& v, T& pose) {
+    v(pose.kind);
+    v(pose.orientation);
+    each(v, pose.tip);
+    each(v, pose.tip_in_cell);
+    each(v, pose.tool_axis_in_cell);
+    v(pose.table_angle);
+    v(pose.redundancy_angle);
+    bool has_joints = pose.joints.has_value();
+    v(has_joints);
+    if constexpr (!std::is_const_v<T>) {
+        if (has_joints) pose.joints.emplace();
+    }
+    if (has_joints) {
+        for (auto& joint : *pose.joints) v(joint);
+    }
+}
+
+template <class V, Of<ReachabilityMargin> T>
+void each(V& v, T& margin) {
+    v(margin.check);
+    v(margin.margin);
+    v(margin.relative);
+    v(margin.pair);
+    each(v, margin.pose);
+}
+
+template <class V, Of<MachineReachability> T>
+void each(V& v, T& reachability) {
+    v(reachability.is_arm_checked);
+    v(reachability.remedy);
+    v(reachability.poses);
+    v(reachability.places);
+    v(reachability.placement.x);
+    v(reachability.placement.y);
+    v(reachability.placement.turn);
+    v(reachability.placement.table_angles);
+}
+
+template <class Element>
+void put_each(CacheWriter& out, const std::vector<Element>& elements) {
+    out.put(elements.size());
+    Writing v{out};
+    for (const Element& element : elements) each(v, element);
+}
+
+template <class Element>
+void get_each(CacheReader& in, std::vector<Element>& elements, const fs::path& file) {
+    Reading v{in, file};
+    for (std::size_t count = in.count(); count > 0; --count) each(v, elements.emplace_back());
 }
 
 void put(CacheWriter& out, const MachineReachability& reachability) {
-    out.put(static_cast<std::uint8_t>(reachability.is_arm_checked));
-    out.put(static_cast<std::uint8_t>(reachability.remedy));
-    out.put(reachability.regions.size());
-    for (const RegionReachability& region : reachability.regions) put(out, region);
+    Writing v{out};
+    each(v, reachability);
+    put_each(out, reachability.margins);
+    put_each(out, reachability.regions);
 }
 
-MachineReachability reachability_from(CacheReader& in, const Setup& setup, const fs::path& file) {
-    constexpr auto remedies = static_cast<std::uint8_t>(Remedy::cut) + 1;
+MachineReachability reachability_from(CacheReader& in, const fs::path& file) {
     MachineReachability reachability;
-    reachability.is_arm_checked = in.get<std::uint8_t>() != 0;
-    reachability.remedy = static_cast<Remedy>(below(in, remedies, file));
-    reachability.placement = setup.placement;
-    for (std::size_t regions = in.count(); regions > 0; --regions) reachability.regions.push_back(region_from(in));
+    Reading v{in, file};
+    each(v, reachability);
+    get_each(in, reachability.margins, file);
+    get_each(in, reachability.regions, file);
+    if (reachability.is_arm_checked && reachability.margins.empty()) refuse(file, "is damaged");
     return reachability;
 }
 
@@ -149,6 +243,32 @@ bool is_mesh(const TriangleMesh& mesh) {
     return !mesh.triangles.empty() && has_caps && std::ranges::all_of(mesh.triangles, has_points);
 }
 
+// The manifest of the same job with another setup, of which it says all that is known; the holes are those of the
+// first.
+std::string manifest_with(JobInput job, const Setup& setup) {
+    job.setup = setup;
+    job.caps.clear();
+    return manifest_of(std::move(job));
+}
+
+void put_states(CacheWriter& out, const std::vector<SurfaceState>& states) {
+    std::vector<std::uint8_t> numbers;
+    numbers.reserve(states.size());
+    for (const SurfaceState state : states) numbers.push_back(static_cast<std::uint8_t>(state));
+    out.put_all(numbers);
+}
+
+// Of each triangle, or none.
+std::vector<SurfaceState> states_from(CacheReader& in, std::size_t triangles, const fs::path& file) {
+    std::vector<SurfaceState> states;
+    for (const std::uint8_t number : in.get_all<std::uint8_t>()) {
+        if (number > static_cast<std::uint8_t>(SurfaceState::ignored)) refuse(file, "is damaged");
+        states.push_back(static_cast<SurfaceState>(number));
+    }
+    if (!states.empty() && states.size() != triangles) refuse(file, "is damaged");
+    return states;
+}
+
 // Only what the manifest of the same job gives is exact.
 WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
     constexpr auto fine_tools = static_cast<std::uint8_t>(FineTools::none) + 1;
@@ -164,14 +284,22 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
         read.program_version == program_version && item.cell.machine && read.setup.block.stock < item.cell.stock.size();
     if (!is_consistent || read.setup.access.orientations.empty()) refuse(file, "is damaged");
     item.job = job_from(read, mesh_from(in), item.cell);
-    item.job.machine_reachability = reachability_from(in, item.job.setup, file);
-    const bool is_name = fs::path(item.result).filename() == item.result && !item.result.empty();
-    if (!in.is_whole() || !is_name || !is_mesh(*item.job.piece.mesh)) refuse(file, "is damaged");
+    item.job.machine_reachability = reachability_from(in, file);
+    const TriangleMesh& mesh = *item.job.piece.mesh;
+    if (!is_mesh(mesh) || fs::path(item.result).filename() != item.result) refuse(file, "is damaged");
     if (manifest_of(item.job) != manifest) refuse(file, "does not hold what its manifest says");
-    item.piece_setup.choice.setups = {item.job.setup};
-    item.piece_setup.stock_fit = item.job.stock_fit;
-    item.piece_setup.machine_reachability = item.job.machine_reachability;
-    if (!item.piece_setup.fits()) refuse(file, "is of a piece that does not fit");
+    PlacedSetup& placed = item.piece_setup;
+    placed.choice.setups = {item.job.setup};
+    for (std::size_t others = in.count(); others > 0; --others) {
+        const std::string other = in.text();
+        placed.choice.setups.push_back(from_manifest(other, file.string()).setup);
+        if (manifest_with(item.job, placed.choice.setups.back()) != other) refuse(file, "is damaged");
+    }
+    placed.choice.states = states_from(in, mesh.triangles.size(), file);
+    placed.stock_fit = item.job.stock_fit;
+    placed.machine_reachability = item.job.machine_reachability;
+    if (!in.is_whole()) refuse(file, "is damaged");
+    if (item.has_program() && !placed.fits()) refuse(file, "is of a piece that does not fit");
     return item;
 }
 
@@ -181,6 +309,7 @@ ProgramSource source_of(const WorkItem& item) {
 
 WorkedPiece worked(const std::string& piece, const PiecePrograms& programs, bool was_kept) {
     WorkedPiece result{piece, ProgramOutcome::none, programs.none_because, was_kept};
+    result.is_machine_refusing = programs.is_machine_refusing;
     if (programs.parts.empty()) return result;
     const auto is_proven = [](const ProvenProgram& part) { return part.proof.is_proven(); };
     result.outcome = std::ranges::all_of(programs.parts, is_proven) ? ProgramOutcome::proven : ProgramOutcome::refused;
@@ -198,7 +327,7 @@ WorkItem work_item(const JobInput& job, const PlacedSetup& piece_setup, const By
     item.cell_file = cell_file;
     item.fine = fine;
     item.result = result;
-    item.effort = program_effort(piece_setup.setup());
+    item.effort = item.has_program() ? program_effort(piece_setup.setup()) : 0;
     return item;
 }
 
@@ -213,6 +342,10 @@ Bytes to_bytes(const WorkItem& item) {
     out.put_all(item.cell_file);
     put(out, *item.job.piece.mesh);
     put(out, item.piece_setup.machine_reachability);
+    const SetupChoice& choice = item.piece_setup.choice;
+    out.put(choice.setups.size() - 1);
+    for (std::size_t k = 1; k < choice.setups.size(); ++k) out.put(manifest_with(item.job, choice.setups[k]));
+    put_states(out, choice.states);
     return sealed(out);
 }
 

@@ -88,13 +88,13 @@ std::string job_count(const PreparedProject& prepared) {
 // "sawn": the saw alone makes it, and it has no job; "none": it has none because it does not fit.
 const char* state_word(const PieceReport& piece, double max_unreachable) {
     if (piece.is_only_sawn) return "sawn";
-    if (piece.job.empty()) return "none";
+    if (!piece.fits()) return "none";
     return is_unreachable(piece.piece_setup.setup(), max_unreachable) ? "unreachable" : "ready";
 }
 
 const char* fits_word(const PieceReport& piece) {
     if (piece.is_only_sawn) return "sawn";
-    return piece.job.empty() ? "no" : "yes";
+    return piece.fits() ? "yes" : "no";
 }
 
 Json piece_json(const PieceReport& piece, const PreparedProject& of) {
@@ -149,7 +149,7 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
     for (const PieceReport& p : prepared.pieces) {
         if (p.is_only_sawn) continue;
         const double share = p.piece_setup.setup().access.unreachable_share();
-        if (p.job.empty()) {
+        if (!p.fits()) {
             text.push_back((p.piece_setup.stock_fit.fits()
                                 ? describe_reachability(p.name, p.piece_setup.machine_reachability)
                                 : describe_stock_fit(p.name, p.piece_setup.stock_fit)) +
@@ -160,7 +160,7 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
                            ", or dispatch it with --accept-unreachable");
         }
         const std::optional<Workholding>& workholding = p.piece_setup.setup().workholding;
-        if (workholding && !workholding->passes() && !p.job.empty()) {
+        if (workholding && !workholding->passes() && p.fits()) {
             text.push_back("piece " + p.name + " is not held safely: " + workholding_problem(*workholding) + "; " +
                            workholding_remedy(*workholding) + "; dispatch asks before it sends it");
         }
@@ -211,13 +211,16 @@ std::vector<std::string> table(const PreparedProject& prepared) {
         lines.push_back(counted(static_cast<std::size_t>(only_sawn), "piece") +
                         " made by the saw alone, without a job: see " + folder + "/saw-list.html.");
     }
-    lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
-                    ", " + job_count(prepared) + " in " + folder + "/jobs, pictures in " + folder + "/pictures.");
-    if (prepared.items.count > 0) {
+    const std::string pieces =
+        counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut");
+    if (prepared.items.count == 0) {
+        lines.push_back(pieces + ", " + job_count(prepared) + " in " + folder + "/jobs, pictures in " + folder +
+                        "/pictures.");
+    } else {
         const auto seconds = [](double s) { return duration(static_cast<std::uint32_t>(std::ceil(s))); };
-        lines.push_back(counted(prepared.items.count, "item") + " in " + folder +
-                        "/work/items; their programs take about " + seconds(prepared.items.all_s) +
-                        " of one processor, the largest " + seconds(prepared.items.largest_s) + ".");
+        lines.push_back(pieces + "; the programs of " + counted(prepared.items.count, "piece") + " from " + folder +
+                        "/work/items take about " + seconds(prepared.items.all_s) + " of one processor, the largest " +
+                        seconds(prepared.items.largest_s) + ".");
     }
     const char* next = prepared.items.count > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";
     lines.push_back(std::string("Next: qchopper ") + next + shell_word(prepared.folder));

@@ -26,6 +26,10 @@ fs::path without_slash(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();
 }
 
+fs::path items_folder(const fs::path& project) {
+    return project / "work" / "items";
+}
+
 bool is_project_folder(const fs::path& path) {
     std::error_code error;
     const bool is_folder = fs::is_directory(path, error);

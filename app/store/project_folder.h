@@ -8,6 +8,7 @@
 //     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
 //     jobs/A.qjob ...   one job file per piece
 //     pictures/*.png
+//     work/             programs made by other processes (app/engine/work_project.h)
 //     cache/            evaluations (evaluation_store.h); may be deleted at any time
 //     lock              held while a program writes
 //
@@ -28,6 +29,9 @@ namespace qchopper {
 
 // The path without a slash at its end.
 std::filesystem::path without_slash(const std::filesystem::path& folder);
+
+// Where prepare --items writes what programs are made from.
+std::filesystem::path items_folder(const std::filesystem::path& project);
 
 // Whether the path is a folder. Throws InputError (missing) for a folder that holds no project.
 bool is_project_folder(const std::filesystem::path& path);

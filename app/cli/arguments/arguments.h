@@ -134,6 +134,7 @@ struct WorkArguments {
     std::vector<std::filesystem::path> inputs;  // projects, or files of items
     std::optional<std::string> shard;           // option_values.h reads it
     bool status = false;
+    bool has_retry = false;  // of pieces that have failed three times too
 };
 
 struct SubmitArguments {

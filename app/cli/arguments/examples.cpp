@@ -62,7 +62,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"submit", R"(  qchopper submit vertebra.qch
   qchopper submit vertebra.qch --shards 4 -- --partition=fast --account=bones
   qchopper submit vertebra.qch --print
-  qchopper submit vertebra.qch --engine local --memory 8000)"},
+  qchopper submit vertebra.qch --engine local --memory 8000
+  qchopper submit vertebra.qch --retry)"},
     {"gather", R"(  qchopper work vertebra.qch --status
   qchopper gather vertebra.qch
   qchopper gather vertebra.qch --make-missing)"},

@@ -15,6 +15,7 @@
 namespace qchopper {
 namespace {
 
+constexpr const char* retry_help = "also pieces of which three attempts have failed";
 constexpr std::size_t max_edits = 2;  // between a misspelt word and the one that is suggested
 
 const CLI::App* command_named(const CLI::App& app, const std::string& name) {
@@ -279,7 +280,9 @@ struct Parser {
         CLI::Option* shard =
             c->add_option("--shard", work.shard, "I/N: those of part I of N, from 0 to N - 1 (0/1: all)")
                 ->check(read_by(shard_from, "no I/N with I from 0 to N - 1"));
-        c->add_flag("--status", work.status, "show what is made, and make nothing")->excludes(shard);
+        CLI::Option* status = c->add_flag("--status", work.status, "show what is made, and make nothing");
+        status->excludes(shard);
+        c->add_flag("--retry", work.has_retry, retry_help)->excludes(status);
         add_common(c, common, [this] { common.command = work; });
     }
 
@@ -299,7 +302,7 @@ struct Parser {
                       "MB that the processes of --engine local may take together, as estimated (four fifths of what "
                       "is free)")
             ->check(number_between(1, 1e9, "a number of MB from 1"));
-        c->add_flag("--retry", submit.has_retry, "also pieces of which three attempts have failed");
+        c->add_flag("--retry", submit.has_retry, retry_help);
         c->add_flag("--print", submit.is_only_written, "only write NAME.qch/work/slurm.sh");
         c->add_option("OPTIONS", submit.options, "after --: options of sbatch, such as -- --partition=fast");
         add_common(c, common, [this] { common.command = submit; });

@@ -235,7 +235,8 @@ void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
                             ->excludes(without);
     c->add_flag("--items", prepare.items,
                 "write no programs, but what they are made from, for work and gather, into NAME.qch/work")
-        ->excludes(with);
+        ->excludes(with)
+        ->excludes(without);
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
     add_common(c, common, [&] { common.command = prepare; });
 }

@@ -93,8 +93,10 @@ TEST_F(ShardedWork, OfShardsIsWhatPrepareMakesToTheByte) {
         EXPECT_EQ(again["pieces"].size(), again["piece_count"]) << how;
         for (const json& piece : again["pieces"]) EXPECT_EQ(piece["kept"], true) << piece;
     }
-    fs::rename(folder.path / "away.ply", folder.path / "v.ply");
-    const Ended gathered = run({"gather", "parts.qch"});
+    const Ended early = run({"dry-run", "parts.qch"});
+    EXPECT_EQ(early.code, exit_use);
+    EXPECT_NE(early.err.find("qchopper submit parts.qch"), std::string::npos) << early.err;
+    const Ended gathered = run({"gather", "parts.qch"});  // without the scan
     EXPECT_EQ(gathered.code, 0) << gathered.err;
     EXPECT_NE(gathered.err.find("kept from an earlier run, of 0 made"), std::string::npos) << gathered.err;
     EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
@@ -203,10 +205,20 @@ TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
     EXPECT_EQ(attempts("p.qch"), 0) << "a stop is no failure";
     EXPECT_EQ(run({"submit", "p.qch", "--print"}).code, 0);
     for (int k = 0; k < 3; ++k) kill_at_work("p.qch");
+    const Ended others = run({"submit", "p.qch", "--print"});
+    EXPECT_EQ(others.code, 0);
+    EXPECT_NE(others.err.find("three attempts have failed to make"), std::string::npos) << others.err;
+    const Ended work = run({"work", "p.qch", "--json"});
+    EXPECT_EQ(work.code, exit_demand_broken) << work.err;
+    const json answer = json::parse(work.out);
+    EXPECT_EQ(answer["unmade"].size(), 1U);
+    EXPECT_EQ(answer["pieces"].size() + 1, answer["piece_count"]) << "the others are made";
     const Ended refused = run({"submit", "p.qch", "--print"});
     EXPECT_EQ(refused.code, exit_use);
-    EXPECT_NE(refused.err.find("three attempts have failed to make"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("submit p.qch --retry"), std::string::npos) << refused.err;
     EXPECT_EQ(run({"submit", "p.qch", "--print", "--retry"}).code, 0);
+    EXPECT_NE(program::bytes_in(folder.path / "p.qch" / "work" / "slurm.sh").find(" --retry\n"), std::string::npos);
+    EXPECT_EQ(run({"work", "p.qch", "--retry"}).code, 0);
 }
 
 TEST(LocalEngine, HasAsManyProcessesAsMemoryHolds) {
@@ -223,6 +235,36 @@ TEST_F(ShardedWork, ADecisionRemovesItems) {
     ASSERT_EQ(run({"segment", "p.qch", "--undo"}).code, 0);
     EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "work"));
     EXPECT_EQ(run({"work", "p.qch"}).code, exit_missing);
+    ASSERT_EQ(run({"prepare", "p.qch", "--items"}).code, 0);
+    EXPECT_TRUE(fs::exists(folder.path / "p.qch" / "work" / "items"));
+    const Ended setup = run({"setup", "p.qch", "--piece", "B", "--orientations", "1"});
+    ASSERT_EQ(setup.code, 0) << setup.err;
+    EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "work"));
+}
+
+TEST_F(ShardedWork, ItemsOfOtherPiecesOrOfAnotherCellAreNotGathered) {
+    prepare("p.qch", {"--items"});
+    const fs::path project = folder.path / "p.qch";
+    ASSERT_EQ(run({"work", "p.qch"}).code, 0);
+    const std::string cell = program::bytes_in(project / "cell.toml");
+    program::put(project / "cell.toml", cell + "# edited\n");
+    const Ended other_cell = run({"gather", "p.qch"});
+    EXPECT_EQ(other_cell.code, exit_use) << other_cell.err;
+    EXPECT_NE(other_cell.err.find("of another cell file"), std::string::npos) << other_cell.err;
+    program::put(project / "cell.toml", cell);
+    const fs::path item = project / "work" / "items" / "B.qitem";
+    const std::string bytes = program::bytes_in(item);
+    fs::remove(item);
+    const Ended lacking = run({"gather", "p.qch"});
+    EXPECT_EQ(lacking.code, exit_missing) << lacking.err;
+    EXPECT_NE(lacking.err.find("are not those of its pieces"), std::string::npos) << lacking.err;
+    EXPECT_FALSE(fs::exists(project / "jobs" / "B.qjob"));
+    program::put(item, bytes);
+    EXPECT_EQ(run({"gather", "p.qch"}).code, 0);
+    EXPECT_EQ(run({"gather", "p.qch"}).code, 0) << "once more";
+    ASSERT_EQ(run({"prepare", "p.qch", "--items"}).code, 0);
+    EXPECT_FALSE(fs::exists(project / "jobs" / "B.qjob")) << "its jobs are to be gathered again";
+    EXPECT_EQ(run({"dry-run", "p.qch"}).code, exit_use);
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 
 #include "app/engine/loop.h"
 #include "app/engine/prepare_project.h"
+#include "app/engine/work_project.h"
 #include "app/jobs/kept_programs.h"
+#include "app/store/project_folder.h"
 #include "base/files/file.h"
 #include "segment/io/write_mesh.h"
 #include "tests/app/ball_cap.h"
@@ -132,6 +134,31 @@ TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsUntilO
     ASSERT_TRUE(open.project.undo().has_value());
     prepared.project = open.project.project();
     EXPECT_FALSE(order().has_value());
+}
+
+// What other processes found out is decided about here, as prepare does; the scan is needed for it alone.
+TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsWhenItIsGathered) {
+    PrepareOptions options{"1.0", {}};
+    options.has_items = true;
+    const PreparedProject prepared = prepare_project(project_folder, {}, options, context());
+    const std::size_t before = prepared.pieces[1].piece_setup.setup().access.orientations.size();
+    const fs::path file = items_folder(project_folder) / "B.qitem";
+    const WorkItem item = item_from(read_file(file), file, "1.0");
+    PiecePrograms refused{{}, "no arm posture reaches it", item.job.caps};
+    refused.is_machine_refusing = true;
+    fs::create_directories(project_folder / "work" / "results");
+    keep_programs(project_folder / "work" / "results" / item.result, {item.job, sha256(item.cell_file), item.fine},
+                  refused);
+    const WorkAnswer worked = work_items({project_folder}, {}, "1.0", {}, context());
+    ASSERT_EQ(worked.pieces.size(), 2U);
+    EXPECT_EQ(worked.pieces[1].outcome, ProgramOutcome::none) << "it is not tried again";
+    const GatherAnswer gathered = gather_project(project_folder, false, "1.0", context());
+    EXPECT_TRUE(gathered.unmade.empty());
+    ASSERT_TRUE(gathered.prepared);
+    EXPECT_EQ(made(*gathered.prepared), "B");
+    EXPECT_NE(messages.find("piece B: no arm posture reaches it; it is milled from "), std::string::npos) << messages;
+    EXPECT_EQ(committed_setup_order(gathered.prepared->project.history, "B").max_directions, before - 1);
+    EXPECT_FALSE(fs::exists(items_folder(project_folder))) << "they are those of another setup";
 }
 
 // B is then the first of one piece: names in its program change, and nothing else.

@@ -71,9 +71,14 @@ TEST_P(Item, IsReadAsItWasWritten) {
     EXPECT_EQ(to_manifest(read.job, {}), to_manifest(item.job, {}));
     const MachineReachability& arm = read.piece_setup.machine_reachability;
     EXPECT_FALSE(arm.regions.empty());
-    EXPECT_EQ(arm.regions, item.piece_setup.machine_reachability.regions);
-    EXPECT_EQ(arm.remedy, item.piece_setup.machine_reachability.remedy);
+    EXPECT_FALSE(arm.margins.empty());
+    EXPECT_EQ(arm, item.piece_setup.machine_reachability);
     EXPECT_EQ(arm.placement, item.job.setup.placement);
+    EXPECT_GT(read.piece_setup.choice.setups.size(), 1U);
+    EXPECT_EQ(read.piece_setup.choice.setups, item.piece_setup.choice.setups);
+    EXPECT_EQ(read.piece_setup.choice.states, item.piece_setup.choice.states);
+    EXPECT_EQ(read.piece_setup.choice.states.size(), read.job.piece.mesh->triangles.size());
+    EXPECT_EQ(read.piece_setup.stock_fit, item.piece_setup.stock_fit);
     EXPECT_TRUE(read.piece_setup.fits());
     EXPECT_EQ(to_bytes(read), to_bytes(item));
 }
