@@ -9,9 +9,11 @@
 #include "app/engine/loop.h"
 #include "app/engine/planes_by_setups.h"
 #include "app/engine/review_cuts.h"
+#include "app/jobs/piece_program.h"
 #include "app/jobs/project_sheets.h"
 #include "app/store/project_folder.h"
 #include "app/store/replay.h"
+#include "base/error.h"
 #include "base/timings.h"
 #include "segment/search/cut_list.h"
 #include "segment/search/recut.h"
@@ -288,6 +290,28 @@ PreparedProject OpenProject::set_up(const std::optional<SearchEnd>& end, const L
     save_project(folder_, project_);
     prepared.project = project_;
     return prepared;
+}
+
+WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const std::string& program_version,
+                                      const Context& context) {
+    const Cell& cell = setups()->cell();
+    const std::string because = no_programs_for(cell);
+    if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
+    const std::vector<Piece>& pieces = segmentation().pieces;
+    remove_items(folder_);
+    std::filesystem::create_directories(items_folder(folder_));
+    WrittenItems written;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        context.check_cancelled();
+        context.progress("items written", i, pieces.size());
+        const WorkItem item = item_of(folder_, project_, segmentation(), i, *setups(), joints, program_version);
+        write_file(items_folder(folder_) / (pieces[i].name + item_ending), to_bytes(item));
+        if (!item.has_program()) continue;
+        ++written.count;
+        written.all_s += item.effort;
+        written.largest_s = std::max(written.largest_s, item.effort);
+    }
+    return written;
 }
 
 PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -151,6 +152,11 @@ class OpenProject {
     // The setups of all pieces, without jobs; those of an earlier run are removed. `end` as in write_outputs(). Throws
     // what check_cell throws.
     PreparedProject set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer, const Context& context);
+    // Writes work/items/<piece>.qitem of every piece (work_project.h), in place of those that are there; those that get
+    // a program are counted. `joints` are those of all pieces. Precondition: set_up(). Throws InputError (use) for a
+    // cell whose jobs get no programs, what write_file throws, Cancelled.
+    WrittenItems write_items(std::span<const PieceJoint> joints, const std::string& program_version,
+                             const Context& context);
     // Takes pieces and setups that another run has made, so that write_outputs() needs no scan and chooses no setup.
     // Nothing but that may follow. Preconditions: they are those of the project, which has a cell and in which nothing
     // is left to cut.

@@ -3,7 +3,6 @@
 #include "app/engine/prepare_project.h"
 
 #include "app/engine/loop.h"
-#include "app/engine/work_project.h"
 #include "app/store/project_lines.h"
 #include "base/error.h"
 #include "base/printable.h"
@@ -48,7 +47,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         context.warn({"no items are written before the cutting has ended; go on with: qchopper prepare " +
                       shell_word(project.folder()) + " --items"});
     } else if (options.has_items) {
-        prepared.items = write_items(project, prepared.joints.joints, options.program_version, context);
+        prepared.items = project.write_items(prepared.joints.joints, options.program_version, context);
     }
     return prepared;
 }

@@ -173,29 +173,6 @@ std::vector<std::size_t> items_of(const Shard& shard, std::span<const double> ef
     return own;
 }
 
-WrittenItems write_items(OpenProject& project, std::span<const PieceJoint> joints, const std::string& program_version,
-                         const ProjectContext& context) {
-    const Cell& cell = project.setups()->cell();
-    const std::string because = no_programs_for(cell);
-    if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
-    const Segmentation& segmentation = project.segmentation();
-    remove_items(project.folder());
-    fs::create_directories(items_folder(project.folder()));
-    WrittenItems written;
-    for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
-        context.check_cancelled();
-        context.progress("items written", i, segmentation.pieces.size());
-        const WorkItem item =
-            item_of(project.folder(), project.project(), segmentation, i, *project.setups(), joints, program_version);
-        write_file(items_folder(project.folder()) / (segmentation.pieces[i].name + item_ending), to_bytes(item));
-        if (!item.has_program()) continue;
-        ++written.count;
-        written.all_s += item.effort;
-        written.largest_s = std::max(written.largest_s, item.effort);
-    }
-    return written;
-}
-
 WorkAnswer work_items(const std::vector<fs::path>& inputs, const WorkOptions& options,
                       const std::string& program_version, const std::function<void(const WorkedPiece&)>& on_piece,
                       const ProjectContext& context) {

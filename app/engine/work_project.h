@@ -19,7 +19,6 @@
 #include "app/jobs/work_attempt.h"
 #include "app/jobs/work_item.h"
 #include "app/store/project_context.h"
-#include "segment/joint/piece_joints.h"
 
 namespace qchopper {
 
@@ -58,12 +57,6 @@ struct WorkAnswer {
     double spent_s = 0;                    // CPU time of all processes that have worked on them
     double left_s = 0;                     // of the unmade ones, as estimated
 };
-
-// Writes work/items/<piece>.qitem of every piece, in place of those that are there; those that get a program are
-// counted. `joints` are those of all pieces. Throws InputError (use) for a cell whose jobs get no programs, what
-// write_file throws, Cancelled.
-WrittenItems write_items(OpenProject& project, std::span<const PieceJoint> joints, const std::string& program_version,
-                         const ProjectContext& context);
 
 // Makes the programs of the items of a shard: of the project at a folder, or of files of items, whose results lie in
 // results/ beside the folder that each is in. Takes no lock, reads no scan. `on_piece` is called from one thread at a

@@ -64,7 +64,7 @@ Enum one_of(CacheReader& in, Enum last, const fs::path& file) {
 }
 
 // Their values one by one, written by the first and read by the second.
-struct Writing {
+struct PutValue {
     CacheWriter& out;
     template <class T>
     void operator()(const T& value) {
@@ -78,7 +78,7 @@ struct Writing {
     }
 };
 
-struct Reading {
+struct GetValue {
     CacheReader& in;
     const fs::path& file;
     template <class T>
@@ -161,18 +161,18 @@ void each(V& v, T& reachability) {
 template <class Element>
 void put_each(CacheWriter& out, const std::vector<Element>& elements) {
     out.put(elements.size());
-    Writing v{out};
+    PutValue v{out};
     for (const Element& element : elements) each(v, element);
 }
 
 template <class Element>
 void get_each(CacheReader& in, std::vector<Element>& elements, const fs::path& file) {
-    Reading v{in, file};
+    GetValue v{in, file};
     for (std::size_t count = in.count(); count > 0; --count) each(v, elements.emplace_back());
 }
 
 void put(CacheWriter& out, const MachineReachability& reachability) {
-    Writing v{out};
+    PutValue v{out};
     each(v, reachability);
     put_each(out, reachability.margins);
     put_each(out, reachability.regions);
@@ -180,7 +180,7 @@ void put(CacheWriter& out, const MachineReachability& reachability) {
 
 MachineReachability reachability_from(CacheReader& in, const fs::path& file) {
     MachineReachability reachability;
-    Reading v{in, file};
+    GetValue v{in, file};
     each(v, reachability);
     get_each(in, reachability.margins, file);
     get_each(in, reachability.regions, file);

@@ -218,8 +218,8 @@ std::vector<std::string> table(const PreparedProject& prepared) {
                         "/pictures.");
     } else {
         const auto seconds = [](double s) { return duration(static_cast<std::uint32_t>(std::ceil(s))); };
-        lines.push_back(pieces + "; the programs of " + counted(prepared.items.count, "piece") + " from " + folder +
-                        "/work/items take about " + seconds(prepared.items.all_s) + " of one processor, the largest " +
+        lines.push_back(pieces + "; programs of " + std::to_string(prepared.items.count) + " of them, from " + folder +
+                        "/work/items, take about " + seconds(prepared.items.all_s) + " of one processor, the largest " +
                         seconds(prepared.items.largest_s) + ".");
     }
     const char* next = prepared.items.count > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";

@@ -15,6 +15,7 @@ PieceReport some_piece(const std::string& name, bool has_job) {
     PieceReport piece;
     piece.name = name;
     piece.piece_setup.choice.setups.resize(1);
+    piece.piece_setup.stock_fit.margins = {{"height", "too high", has_job ? 1.0 : -1.0}};
     if (has_job) piece.job = "p.qch/jobs/" + name + ".qjob";
     return piece;
 }
