@@ -1,7 +1,8 @@
 // Programs of items: shards against one prepare, two processes against one, the first step, gather, estimates, kills.
 //
 // A sample vertebra of 60,000 faces in kr60-ha, and with a mesh as argument that one: FILE UNITS SCALE CELL. CPU time
-// and ratios of one run. Cost: a dozen times that of its programs; with --kills N as many processes are killed besides.
+// and ratios of one run. Cost: a dozen times that of its programs. --kills N: nothing but as many kills, of work on a
+// small vertebra, three seconds each on average.
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -41,10 +42,13 @@ class WorkBench {
     WorkBench(fs::path program, fs::path folder, Model model, Figures& figures)
         : program_(std::move(program)), folder_(std::move(folder)), model_(std::move(model)), figures_(figures) {}
 
+    void prepare() {
+        whole_ = prepared("whole", {"--threads", "1"});
+        items_ = prepared("items", {"--items", "--threads", "1"});
+    }
+
     void shards() {
-        const ChildResult whole = prepared("whole", {"--threads", "1"});
-        const ChildResult items = prepared("items", {"--items", "--threads", "1"});
-        const double of_programs = whole.cpu - items.cpu;
+        const double of_programs = whole_.cpu - items_.cpu;
         figures_.record(model_.name, "programs of prepare --threads 1, CPU", time_text(of_programs));
         for (const int count : {1, 2, 4, 8}) {
             fs::remove_all(project("items") / "work" / "results");
@@ -94,6 +98,20 @@ class WorkBench {
         const ChildResult gathered = run({program_.string(), "gather", project("items").string(), "-q"});
         figures_.record(model_.name, "gather, CPU; peak memory",
                         time_text(gathered.cpu) + "; " + number_text(gathered.peak_bytes / 1e6) + " MB");
+        const json timed = json::parse(said({"gather", project("items").string(), "--json", "--timings"}));
+        double pictures = 0;
+        for (const json& stage : timed.at("timings").at("stages")) {
+            if (stage.at("name") == "pictures drawn") pictures = stage.at("cpu_s");
+        }
+        Words hash{"sha256sum"};
+        for (const char* name : {"items", "results"}) {
+            for (const auto& entry : fs::directory_iterator(project("items") / "work" / name)) {
+                hash.push_back(entry.path());
+            }
+        }
+        figures_.at_most(model_.name, "gather without pictures / sha256sum of items and results, CPU",
+                         (timed.at("timings").at("cpu_s").get<double>() - pictures) / run(hash, {folder_ / "sums"}).cpu,
+                         10);
         const Words differ{"diff", "-rq", (project("whole") / "jobs").string(), (project("items") / "jobs").string()};
         figures_.record(model_.name, "jobs are those of prepare", run(differ).status == 0 ? "yes" : "NO");
     }
@@ -102,7 +120,7 @@ class WorkBench {
     // work is made again.
     void kills(int count) {
         std::mt19937 random(1);
-        std::uniform_real_distribution<double> seconds(0.02, 2);
+        std::uniform_real_distribution<double> seconds(0.02, 6);
         fs::remove_all(project("items") / "work" / "results");
         int lost = 0;
         for (int k = 0; k < count; ++k) {
@@ -116,7 +134,7 @@ class WorkBench {
             for (const auto& [name, bytes] : before) lost += after.contains(name) && after.at(name) == bytes ? 0 : 1;
         }
         figures_.record(model_.name, std::to_string(count) + " kills: whole results lost", std::to_string(lost));
-        while (results().size() < pieces()) work(0, 1);
+        work(0, 1);
         gather();
     }
 
@@ -132,8 +150,8 @@ class WorkBench {
     }
 
     ChildResult work(int number, int count) const {
-        return checked({program_.string(), "work", project("items").string(), "-q", "--threads", "1", "--shard",
-                        std::to_string(number) + "/" + std::to_string(count)});
+        return checked({program_.string(), "work", project("items").string(), "-q", "--retry", "--threads", "1",
+                        "--shard", std::to_string(number) + "/" + std::to_string(count)});
     }
 
     static ChildResult checked(const Words& words) {
@@ -158,7 +176,8 @@ class WorkBench {
         const std::string items = project("items").string();
         const pid_t child = ::fork();
         if (child == 0) {
-            ::execl(program_.c_str(), program_.c_str(), "work", items.c_str(), "-q", "--threads", "1", nullptr);
+            ::execl(program_.c_str(), program_.c_str(), "work", items.c_str(), "-q", "--retry", "--threads", "1",
+                    nullptr);
             ::_exit(127);
         }
         return child;
@@ -187,6 +206,8 @@ class WorkBench {
     fs::path folder_;
     Model model_;
     Figures& figures_;
+    ChildResult whole_;  // prepare with programs, and with items
+    ChildResult items_;
 };
 
 int bench_work(Words words) {
@@ -203,17 +224,23 @@ int bench_work(Words words) {
         model = {fs::path(words[0]).stem(), {words[0], "--units", words[1], "--scale", words[2], "--cell", words[3]}};
     } else {
         const std::string vertebra = (folder / "vertebra.ply").string();
-        run({program.string(), "sample", "vertebra", "--faces", "60000", "-o", vertebra});
-        model = {"vertebra", {vertebra, "--units", "mm", "--cell", "kr60-ha"}};
+        const std::string faces = kills > 0 ? "2000" : "60000";
+        run({program.string(), "sample", "vertebra", "--faces", faces, "-o", vertebra});
+        model = {"vertebra of " + faces, {vertebra, "--units", "mm", "--cell", "kr60-ha"}};
+        if (kills > 0) model.options.insert(model.options.end(), {"--scale", "0.35"});
     }
     Figures figures;
     WorkBench bench(program, folder, model, figures);
-    bench.shards();
-    bench.processes();
-    bench.estimates();
-    bench.first_step();
-    bench.gather();
-    if (kills > 0) bench.kills(kills);
+    bench.prepare();
+    if (kills > 0) {
+        bench.kills(kills);
+    } else {
+        bench.shards();
+        bench.processes();
+        bench.estimates();
+        bench.first_step();
+        bench.gather();
+    }
     figures.print(std::cout);
     fs::remove_all(folder);
     return 0;

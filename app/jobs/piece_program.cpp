@@ -105,7 +105,8 @@ class OtherPlaces {
             add(poses_, refused.run()->orientation, refused.run()->run);
         }
         std::optional<PlacedSetup> other = at(place_block(setup, poses_, cell_, {}, context_).placement);
-        if (!other) {
+        if (!other && !are_all_runs_asked_) {  // the runs that are refused later are among them
+            are_all_runs_asked_ = true;
             std::vector<OrientationPoses> all = poses_;
             for (const Operation& operation : path_.operations) {
                 for (const PathRun& run : operation.runs) add(all, operation.orientation, run);
@@ -137,6 +138,7 @@ class OtherPlaces {
     const Context& context_;
     std::vector<OrientationPoses> poses_;
     std::vector<BlockPlacement> tried_;
+    bool are_all_runs_asked_ = false;
 };
 
 struct PostedProgram {

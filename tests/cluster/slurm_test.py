@@ -2,9 +2,9 @@
 
     slurm_test.py PROGRAM CELL
 
-A worker is killed, a task is requeued, one runs out of time, one out of memory, one is cancelled, a node is restarted;
-the jobs are those of one prepare, to the byte. Exit code 77 where Slurm or munge is not installed; skipped where they do
-not start.
+A worker is killed, a task is requeued, one runs out of time, one out of memory, one is cancelled, a node and the
+controller are restarted; the jobs are those of one prepare, to the byte. Exit code 77 where Slurm or munge is not
+installed; skipped where they do not start.
 """
 
 import hashlib
@@ -162,16 +162,16 @@ class Slurm(unittest.TestCase):
             raise AssertionError(f"{arguments} ended with {result.returncode}:\n{result.stderr}")
         return result.stdout
 
-    def prepared(self, project):
-        self.program("prepare", "v.ply", "--units", "mm", "--scale", "0.35", "--cell", CELL, "--items", "-o", project)
+    def prepared(self, project, scale="0.35"):
+        self.program("prepare", "v.ply", "--units", "mm", "--scale", scale, "--cell", CELL, "--items", "-o", project)
 
-    def submit(self, project, *options):
-        return subprocess.run([PROGRAM, "submit", project, "--shards", str(SHARDS), *options], capture_output=True,
+    def submit(self, project, *options, shards=SHARDS):
+        return subprocess.run([PROGRAM, "submit", project, "--shards", str(shards), *options], capture_output=True,
                               text=True, check=False, timeout=60, cwd=self.folder, env=self.environment)
 
-    def submitted(self, project, *options):
+    def submitted(self, project, *options, shards=SHARDS):
         """The numbers of the array and of gather after it."""
-        said = self.submit(project, *options)
+        said = self.submit(project, *options, shards=shards)
         self.assertEqual(said.returncode, 0, said.stderr)
         found = re.search(r"jobs (\d+) and (\d+) are submitted", said.stderr)
         self.assertTrue(found, said.stderr)
@@ -195,14 +195,14 @@ class Slurm(unittest.TestCase):
     def results(self, project):
         return list((self.folder / project / "work" / "results").glob("*.programs"))
 
-    def assert_same_jobs(self, project):
+    def assert_same_jobs(self, project, whole="whole.qch"):
         """Those that gather wrote."""
         def jobs(name):
             files = sorted((self.folder / name / "jobs").iterdir())
             return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
-        self.assertGreaterEqual(len(jobs("whole.qch")), 4)
-        self.assertEqual(jobs(project), jobs("whole.qch"))
+        self.assertGreaterEqual(len(jobs(whole)), 4)
+        self.assertEqual(jobs(project), jobs(whole))
 
     def test_a_worker_that_is_killed_is_submitted_again(self):
         self.prepared("killed.qch")
@@ -227,6 +227,21 @@ class Slurm(unittest.TestCase):
         self.start("n1")
         self.wait_for(jobs)
         self.assert_same_jobs("re queued.qch")
+
+    def test_the_controller_is_killed_and_restarted_while_a_task_runs(self):
+        """After both jobs are in its saved state: what it takes in between is lost with it."""
+        self.prepared("restarted.qch", "0.5")
+        jobs = self.submitted("restarted.qch", shards=1)
+        state = self.folder / "state" / "job_state"
+        wait_until("the saved state", lambda: state.exists() and b"qchopper-gather" in state.read_bytes(), 60)
+        wait_until("a worker", lambda: self.workers("restarted.qch"), 60)
+        self.kill("slurmctld")
+        self.assertTrue(self.workers("restarted.qch"), "it goes on")
+        self.start("slurmctld")
+        wait_until("the controller", lambda: "UP" in self.asked("scontrol", "ping"), 60)
+        self.wait_for(jobs)
+        self.program("prepare", "v.ply", "--units", "mm", "--scale", "0.5", "--cell", CELL, "-o", "large.qch")
+        self.assert_same_jobs("restarted.qch", "large.qch")
 
     def failed(self, project):
         """The lines of failed.jsonl by their pieces."""
