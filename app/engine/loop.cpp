@@ -53,15 +53,18 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
         const auto write = [&] {
             return project.write_outputs(result.end, options.program_version, observer, context);
         };
-        result.prepared = write();
-        const auto is_changed = [&] {
-            if (!refuses_long_tools(project, *result.prepared, context)) {
-                return take_fewer_orientations(project, *result.prepared, context);
+        const auto is_changed = [&](const PreparedProject& prepared) {
+            if (!refuses_long_tools(project, prepared, context)) {
+                return take_fewer_orientations(project, prepared, context);
             }
             result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
             return true;
         };
-        while (is_changed()) result.prepared = write();
+        // Pieces that the arm refuses are changed before programs are proven, which those beside them would lose.
+        while (is_changed(project.follow_toolpaths(options.program_version, context))) {
+        }
+        result.prepared = write();
+        while (is_changed(*result.prepared)) result.prepared = write();
     }
     return result;
 }

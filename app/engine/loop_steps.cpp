@@ -260,13 +260,15 @@ void OpenProject::take_pieces(std::vector<Piece> pieces, std::vector<PlacedSetup
     are_pieces_taken_ = true;
 }
 
-// With their setups, and what joins them.
-PreparedProject OpenProject::pieces_for_jobs(const std::optional<SearchEnd>& end, const LoopObserver& observer,
-                                             const Context& context) {
-    check_cell();
+void OpenProject::begin_outputs(const std::optional<SearchEnd>& end) {
     const bool is_out_of_time = end && end->is_out_of_time();
     if (is_out_of_time) record_end(*end);
     if ((!end || is_out_of_time) && !are_pieces_taken_) write_current_pieces();
+}
+
+// With their setups, and what joins them.
+PreparedProject OpenProject::pieces_for_jobs(const LoopObserver& observer, const Context& context) {
+    check_cell();
     PreparedProject prepared{folder_, {}, setups()->cell(), max_unreachable(project_, setups()->cell()), {}};
     const std::vector<Piece>& pieces = segmentation().pieces;
     release_scan();
@@ -283,11 +285,20 @@ PreparedProject OpenProject::set_up(const std::optional<SearchEnd>& end, const L
                                     const Context& context) {
     check_cell();
     remove_jobs(folder_, project_);
-    PreparedProject prepared = pieces_for_jobs(end, observer, context);
+    begin_outputs(end);
+    PreparedProject prepared = pieces_for_jobs(observer, context);
     for (const Piece& piece : segmentation().pieces) {
         prepared.pieces.push_back(report_without_job(folder_, project_, piece, *setups()));
     }
     save_project(folder_, project_);
+    prepared.project = project_;
+    return prepared;
+}
+
+PreparedProject OpenProject::follow_toolpaths(const std::string& program_version, const Context& context) {
+    PreparedProject prepared = pieces_for_jobs({}, context);
+    prepared.pieces = qchopper::follow_toolpaths(folder_, project_, segmentation(), *setups(), prepared.joints.joints,
+                                                 program_version, context);
     prepared.project = project_;
     return prepared;
 }
@@ -316,7 +327,9 @@ WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const 
 
 PreparedProject OpenProject::write_outputs(const std::optional<SearchEnd>& end, const std::string& program_version,
                                            const LoopObserver& observer, const Context& context) {
-    PreparedProject prepared = pieces_for_jobs(end, observer, context);
+    check_cell();
+    begin_outputs(end);
+    PreparedProject prepared = pieces_for_jobs(observer, context);
     const std::vector<Piece>& pieces = segmentation().pieces;
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version,
                                  observer.on_job, context);

@@ -152,6 +152,8 @@ class OpenProject {
     // The setups of all pieces, without jobs; those of an earlier run are removed. `end` as in write_outputs(). Throws
     // what check_cell throws.
     PreparedProject set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer, const Context& context);
+    // The same, and what the arm says of the toolpaths of the pieces (follow_toolpaths() of app/jobs/piece_jobs.h).
+    PreparedProject follow_toolpaths(const std::string& program_version, const Context& context);
     // Writes work/items/<piece>.qitem of every piece (work_project.h), in place of those that are there; those that get
     // a program are counted. `joints` are those of all pieces. Precondition: set_up(). Throws InputError (use) for a
     // cell whose jobs get no programs, what write_file throws, Cancelled.
@@ -197,8 +199,8 @@ class OpenProject {
     void release_scan();
     void save();
     void write_current_pieces();
-    PreparedProject pieces_for_jobs(const std::optional<SearchEnd>& end, const LoopObserver& observer,
-                                    const Context& context);
+    void begin_outputs(const std::optional<SearchEnd>& end);
+    PreparedProject pieces_for_jobs(const LoopObserver& observer, const Context& context);
 
     std::filesystem::path folder_;
     Project project_;

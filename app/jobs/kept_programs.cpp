@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
-constexpr std::uint32_t version_of_programs = 6;
+constexpr std::uint32_t version_of_programs = 7;
 
 void put(CacheWriter& out, const Vec3& v) {
     for (const double x : {v.x, v.y, v.z}) out.put(x);
@@ -59,18 +59,6 @@ JobInput without_others(const JobInput& job) {
     own.caps.clear();
     own.no_program_because.clear();
     return own;
-}
-
-void put(CacheWriter& out, const BlockPlacement& place) {
-    for (const double x : {place.x, place.y, place.turn}) out.put(x);
-    out.put_all(place.table_angles);
-}
-
-BlockPlacement placement_from(CacheReader& in) {
-    BlockPlacement place;
-    for (double* x : {&place.x, &place.y, &place.turn}) *x = in.get<double>();
-    place.table_angles = in.get_all<double>();
-    return place;
 }
 
 void put(CacheWriter& out, const ProvenProgram& part) {
@@ -147,7 +135,7 @@ std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource&
     const auto number = in.get<std::uint16_t>();
     programs.none_because = in.text();
     programs.is_machine_refusing = in.get<std::uint8_t>() != 0;
-    if (in.get<std::uint8_t>() != 0) programs.place = placement_from(in);
+    if (in.get<std::uint8_t>() != 0) programs.place = block_placement_from(in);
     std::vector<std::size_t> drilled;
     std::map<std::size_t, std::string> reasons;
     for (std::size_t holes = in.count(); holes > 0; --holes) {
@@ -166,7 +154,19 @@ std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource&
 
 }  // namespace
 
-fs::path programs_file(const fs::path& folder, const ProgramSource& source) {
+void put(CacheWriter& out, const BlockPlacement& place) {
+    for (const double x : {place.x, place.y, place.turn}) out.put(x);
+    out.put_all(place.table_angles);
+}
+
+BlockPlacement block_placement_from(CacheReader& in) {
+    BlockPlacement place;
+    for (double* x : {&place.x, &place.y, &place.turn}) *x = in.get<double>();
+    place.table_angles = in.get_all<double>();
+    return place;
+}
+
+CacheWriter toolpath_source(const ProgramSource& source) {
     CacheWriter out;
     out.put(version_of_programs);
     const JobInput own = without_others(source.job);
@@ -176,12 +176,17 @@ fs::path programs_file(const fs::path& folder, const ProgramSource& source) {
     for (const Vec3& point : piece.mesh->points) put(out, point);
     out.put_all(piece.mesh->triangles);
     out.put_all(piece.mesh->cap_of);
+    out.put_all(std::vector<std::uint8_t>(source.cell_sha256.bytes.begin(), source.cell_sha256.bytes.end()));
+    out.put(static_cast<std::uint8_t>(source.fine));
+    return out;
+}
+
+fs::path programs_file(const fs::path& folder, const ProgramSource& source) {
+    CacheWriter out = toolpath_source(source);
     const std::vector<JobHole> holes = holes_of(source.job.caps);
     out.put(holes.size());
     for (const JobHole& hole : holes) put(out, hole);
     out.put(std::to_string(source.job.piece_no).size());
-    out.put_all(std::vector<std::uint8_t>(source.cell_sha256.bytes.begin(), source.cell_sha256.bytes.end()));
-    out.put(static_cast<std::uint8_t>(source.fine));
     return cache_file(folder, out, programs_ending);
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "app/jobs/piece_program.h"
+#include "app/store/caches/cache_file.h"
 #include "base/sha256.h"
 #include "cam/job/job.h"
 #include "cam/toolpath/toolpath_settings.h"
@@ -26,6 +27,13 @@ struct ProgramSource {
     Sha256 cell_sha256;   // of the cell file
     FineTools fine = FineTools::worthwhile;
 };
+
+// What a toolpath depends on; programs depend on the holes and on the digits of the piece's number besides.
+// O(triangles).
+CacheWriter toolpath_source(const ProgramSource& source);
+
+void put(CacheWriter& out, const BlockPlacement& place);
+BlockPlacement block_placement_from(CacheReader& in);
 
 // The file in `folder`, whether it is there or not. O(triangles).
 std::filesystem::path programs_file(const std::filesystem::path& folder, const ProgramSource& source);

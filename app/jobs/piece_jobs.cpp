@@ -12,6 +12,7 @@
 
 #include "app/jobs/job_verdict.h"
 #include "app/jobs/kept_programs.h"
+#include "app/jobs/kept_toolpaths.h"
 #include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_program.h"
 #include "app/jobs/program_effort.h"
@@ -190,8 +191,8 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
         report.has_kept_programs = kept.has_value();
         if (kept) return std::move(*kept);
     }
-    PiecePrograms programs =
-        make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context, source.fine);
+    PiecePrograms programs = make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context,
+                                           source.fine, kept_toolpath(toolpath_file(orders.folder / "cache", source)));
     keep_programs(file, source, programs);
     return programs;
 }
@@ -238,6 +239,12 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const PlacedSetup& 
     return made;
 }
 
+std::vector<const PlacedSetup*> placed_setups(const Segmentation& segmentation, Setups& setups) {
+    std::vector<const PlacedSetup*> piece_setups;
+    for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.placed(piece));
+    return piece_setups;
+}
+
 // In place of those that the project has of the piece, in the order of the pieces.
 void record_jobs(Project& project, const Segmentation& segmentation, std::size_t index,
                  const std::vector<WrittenJob>& written) {
@@ -277,13 +284,25 @@ JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>
     return plan;
 }
 
+// Whether the toolpaths of the programs have been made already, as all are or none.
+bool has_toolpaths(const JobOrders& orders, const JobPlan& plan, const std::vector<const PlacedSetup*>& piece_setups) {
+    if (plan.programs.empty()) return false;
+    const std::size_t first = plan.order.front();
+    const JobInput input = job_input(orders, first, *piece_setups[first]);
+    std::error_code error;
+    return fs::exists(toolpath_file(orders.folder / "cache", source_of(orders, input)), error);
+}
+
 // Of jobs that are written several at a time: the time of their programs, or the number of jobs where none is made.
 class JobProgress {
  public:
-    JobProgress(const Context& context, const JobPlan& plan)
-        : context_(context), programs_(context, plan.programs), made_(plan.programs.size()), count_(plan.order.size()) {
+    JobProgress(const Context& context, const JobPlan& plan, ProgramSteps steps)
+        : context_(context),
+          programs_(context, plan.programs, steps),
+          made_(plan.programs.size()),
+          count_(plan.order.size()) {
         if (made_ == 0) context_.progress("jobs written", 0, count_);
-        if (made_ > 0) context_.message(describe(plan.programs));
+        if (made_ > 0 && steps != ProgramSteps::after_toolpath) context_.message(describe(plan.programs));
     }
 
     // For the work on the job that is number `k` in the order of the plan, which is timed by itself.
@@ -306,6 +325,50 @@ class JobProgress {
     std::size_t count_ = 0;
     std::size_t done_ = 0;
 };
+
+// Several pieces at a time in the order of a plan, each timed by itself. `finish` is called from one thread at a time.
+void in_order_of(const JobPlan& plan, ProgramSteps steps, StageTimer& stage, const Context& context,
+                 const std::function<void(std::size_t, const Context&)>& work,
+                 const std::function<void(std::size_t)>& finish) {
+    const std::size_t count = plan.order.size();
+    JobProgress progress(context, plan, steps);
+    std::vector<RunTimes> times(count);
+    std::mutex finishing;
+    std::atomic<std::size_t> next = 0;
+    parallel_for(0, count, [&](std::size_t) {  // whatever the order of the loop
+        context.check_cancelled();
+        const std::size_t k = next++;
+        const std::size_t i = plan.order[k];
+        Timings timings;
+        work(i, progress.of(k, &timings));
+        times[i] = timings.so_far();
+        const std::lock_guard lock(finishing);
+        finish(i);
+        progress.finish(k);
+    });
+    stage.divide(times);
+}
+
+// Says in the report why there will be no program, if that is so.
+void follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context,
+            PieceReport& report) {
+    if (report.is_only_sawn || !piece_setup.fits()) return;
+    const JobInput input = job_input(orders, index, piece_setup);
+    const ProgramSource source = source_of(orders, input);
+    if (const std::optional<PiecePrograms> programs = kept_programs(kept_file(orders, input), source)) {
+        report.no_program_because = programs->none_because;
+        report.is_machine_refusing = programs->is_machine_refusing;
+        return;
+    }
+    const fs::path file = toolpath_file(orders.folder / "cache", source);
+    std::optional<FollowedToolpath> followed = kept_toolpath(file);
+    if (!followed) {
+        followed = follow_toolpath(input.piece, piece_setup, orders.cell, context, source.fine);
+        keep_toolpath(file, *followed);
+    }
+    report.no_program_because = followed->none_because;
+    report.is_machine_refusing = followed->is_machine_refusing;
+}
 
 void tell_kept(const std::vector<PieceReport>& reports, const Context& context) {
     std::size_t kept = 0;
@@ -347,36 +410,44 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
     return std::move(made.report);
 }
 
+std::vector<PieceReport> follow_toolpaths(const fs::path& folder, const Project& project,
+                                          const Segmentation& segmentation, Setups& setups,
+                                          std::span<const PieceJoint> joints, const std::string& program_version,
+                                          const Context& context) {
+    const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
+    if (!none_because(orders).empty()) return {};
+    StageTimer stage(context, "toolpaths followed");
+    const std::vector<const PlacedSetup*> piece_setups = placed_setups(segmentation, setups);
+    std::vector<PieceReport> reports;
+    for (std::size_t i = 0; i < piece_setups.size(); ++i) {
+        reports.push_back(report_of(folder, project, segmentation.pieces[i], *piece_setups[i], setups.cell()));
+    }
+    in_order_of(
+        plan_jobs(orders, piece_setups), ProgramSteps::toolpath, stage, context,
+        [&](std::size_t i, const Context& own) { follow(orders, i, *piece_setups[i], own, reports[i]); },
+        [](std::size_t) {});
+    return reports;
+}
+
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, std::span<const PieceJoint> joints,
                                     const std::string& program_version,
                                     const std::function<void(const PieceReport&)>& on_job, const Context& context) {
     StageTimer stage(context, "jobs written");
     const std::size_t count = segmentation.pieces.size();
-    std::vector<const PlacedSetup*> piece_setups;
-    for (const Piece& piece : segmentation.pieces) piece_setups.push_back(&setups.placed(piece));
+    const std::vector<const PlacedSetup*> piece_setups = placed_setups(segmentation, setups);
     std::vector<MadeJob> made(count);
     const Project ordered = project;  // what the threads read, while the records change
     const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);
     const JobPlan plan = plan_jobs(orders, piece_setups);
-    JobProgress progress(context, plan);
-    std::vector<RunTimes> times(count);
-    std::mutex recording;
-    std::atomic<std::size_t> next = 0;
-    parallel_for(0, count, [&](std::size_t) {  // in the order of the plan, whatever that of the loop
-        context.check_cancelled();
-        const std::size_t k = next++;
-        const std::size_t i = plan.order[k];
-        Timings timings;
-        made[i] = make_job(orders, i, *piece_setups[i], progress.of(k, &timings));
-        times[i] = timings.so_far();
-        const std::lock_guard lock(recording);
-        record_jobs(project, segmentation, i, made[i].written);
-        save_project(folder, project);
-        if (on_job) on_job(made[i].report);
-        progress.finish(k);
-    });
-    stage.divide(times);
+    in_order_of(
+        plan, has_toolpaths(orders, plan, piece_setups) ? ProgramSteps::after_toolpath : ProgramSteps::all, stage,
+        context, [&](std::size_t i, const Context& own) { made[i] = make_job(orders, i, *piece_setups[i], own); },
+        [&](std::size_t i) {
+            record_jobs(project, segmentation, i, made[i].written);
+            save_project(folder, project);
+            if (on_job) on_job(made[i].report);
+        });
     std::vector<WrittenJob> all;
     std::vector<PieceReport> reports;
     for (MadeJob& job : made) {
@@ -385,6 +456,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     }
     project.jobs = std::move(all);  // no other job stays recorded
     remove_oldest(folder / "cache", programs_ending, kept_per_piece * count);
+    remove_oldest(folder / "cache", toolpaths_ending, 0);
     tell_kept(reports, context);
     setups.set_places(recorded_places(project));
     return reports;

@@ -1,4 +1,5 @@
-// One step after the other; toolpath and replay take most of the time. A setup is placed by poses that are known before
+// One step after the other; toolpath and replay take most of the time, and whether the arm follows a toolpath is asked
+// without the holes, which come after it. A setup is placed by poses that are known before
 // there is a toolpath (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and
 // by those of the run that was refused, and so on a few times; where that has no other place, by those of all runs. The
 // toolpath stays. With the refused runs alone one piece of a bunny at 1.5 m got its program and another one did not;
@@ -46,10 +47,11 @@ std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     return frames;
 }
 
-// A toolpath, the foam that it leaves, and the drilling that follows it.
+constexpr double drilled_cells = 4;  // cells of the toolpath's maps in the side of one by which holes are drilled
+
+// A toolpath and the drilling that follows it.
 struct MadePath {
     Toolpath toolpath;
-    InProcessStock left;
     Drilling drilling;
 };
 
@@ -62,16 +64,9 @@ double wall_of(const JobHole& hole, const Cell& cell) {
     return wall;
 }
 
-MadePath make_path(const Piece& piece, const Setup& setup, const Cell& cell, const ToolpathSettings& settings,
-                   const Context& context) {
-    InProcessStock left(setup);
-    Toolpath toolpath = make_toolpath(setup, *piece.mesh, cell, settings, context, &left);
-    return {std::move(toolpath), std::move(left), {}};
-}
-
 // The holes that the robot reaches where the block stands.
-Drilling drilling_of(const MadePath& made, const Piece& piece, const PlacedSetup& piece_setup, const Cell& cell,
-                     const std::vector<DrawnCap>& caps, const Context& context) {
+Drilling drilling_of(const std::vector<RemovedFoam>& removed, const Piece& piece, const PlacedSetup& piece_setup,
+                     const Cell& cell, const std::vector<DrawnCap>& caps, const Context& context) {
     const Setup& setup = piece_setup.setup();
     std::vector<DrillHole> holes;
     for (const DrawnCap& drawn : caps) {
@@ -81,7 +76,9 @@ Drilling drilling_of(const MadePath& made, const Piece& piece, const PlacedSetup
         }
     }
     if (holes.empty()) return {};
-    Drilling drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, made.left);
+    InProcessStock left(setup);
+    for (const RemovedFoam& along : removed) left.remove_above(along.orientation, along.down_to);
+    Drilling drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, left);
     keep_reachable_holes(drilling, setup, piece_setup.machine_reachability, cell, context);
     return drilling;
 }
@@ -140,6 +137,11 @@ class OtherPlaces {
     std::vector<BlockPlacement> tried_;
     bool are_all_runs_asked_ = false;
 };
+
+// Whether the arm follows the toolpath alone where the block stands: throws ProgramRefused if not.
+void check_followed(const Toolpath& path, const PlacedSetup& piece_setup, const Cell& cell, const Context& context) {
+    make_program(path, piece_setup.setup(), piece_setup.machine_reachability, cell, context);
+}
 
 struct PostedProgram {
     std::vector<ProgramPart> parts;
@@ -221,10 +223,10 @@ std::vector<DrawnCap> decided(std::vector<DrawnCap> caps, const Drilling& drilli
 
 // Of a part as it was posted; the figures of its chunks are read back later.
 ProgramInput program_of(const PostedProgram& posted, std::size_t number, const MadePath& made,
-                        const CellMachine& machine, const ToolpathSettings& settings) {
+                        const CellMachine& machine) {
     const ProgramPart& part = posted.parts[number - 1];
     ProgramInput input;
-    input.program.scallop_mm = settings.scallop;
+    input.program.scallop_mm = machine.program.scallop;
     for (const UnusedTool& unused : made.toolpath.unused) {
         ToolLeftOut left_out{{}, unused.orientation, unused.because};
         if (unused.tool) left_out.tool = machine.tools[*unused.tool].number;
@@ -252,34 +254,29 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
     return input;
 }
 
-// A program, and the setup where its block stands.
-struct MadeProgram {
-    MadePath made;
-    PostedProgram posted;
-    PlacedSetup piece_setup;
-};
-
-// Where the machine cannot follow the toolpath from where the block stands, from another place.
-MadeProgram made_program(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
-                         const std::vector<DrawnCap>& caps, const ToolpathSettings& settings, const Context& context) {
+// Where the machine cannot follow the toolpath from where the block stands, from another place. Throws ProgramRefused.
+FollowedToolpath followed_with(const ToolpathSettings& settings, const Piece& piece, const PlacedSetup& known,
+                               const Cell& cell, const Context& context) {
     StageTimer stage(context, "toolpaths made");
-    MadeProgram program{make_path(piece, known.setup(), cell, settings, context), {}, known};
+    InProcessStock left(known.setup());
+    FollowedToolpath followed{make_toolpath(known.setup(), *piece.mesh, cell, settings, context, &left), {}};
     stage.next("programs made");
-    const auto post_at = [&](const PlacedSetup& place) {
-        program.made.drilling = drilling_of(program.made, piece, place, cell, caps, context);
-        program.posted = make_parts(program.made, place, piece_no, cell, context);
-    };
-    OtherPlaces places(known, program.made.toolpath, piece, cell, context);
+    OtherPlaces places(known, followed.toolpath, piece, cell, context);
+    PlacedSetup piece_setup = known;
     while (true) {
         try {
-            post_at(program.piece_setup);
-            return program;
+            check_followed(followed.toolpath, piece_setup, cell, context);
+            break;
         } catch (const ProgramRefused& refused) {
             std::optional<PlacedSetup> other = places.next(refused);
             if (!other) throw;
-            program.piece_setup = std::move(*other);
+            piece_setup = std::move(*other);
         }
     }
+    followed.removed = left.removed(drilled_cells);
+    const BlockPlacement& place = piece_setup.setup().placement;
+    if (place != known.setup().placement) followed.place = place;
+    return followed;
 }
 
 void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& mesh) {
@@ -289,30 +286,42 @@ void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& m
     if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation, proof.is_given_up);
 }
 
-PiecePrograms programs_with(const ToolpathSettings& settings, const Piece& piece, const PlacedSetup& known,
-                            std::uint16_t piece_no, const Cell& cell, std::vector<DrawnCap> caps,
-                            const Context& context) {
-    const Cell planned = with_tools(cell, known.setup().tools);
-    std::optional<MadeProgram> program;
-    try {
-        try {
-            program = made_program(piece, known, piece_no, planned, caps, settings, context);
-        } catch (const ProgramRefused&) {
-            // Poses are known of tips on the block, not of all that roughing takes beside it.
-            ToolpathSettings narrow = settings;
-            narrow.beside_block = narrowly_beside;
-            program = made_program(piece, known, piece_no, planned, caps, narrow, context);
-        }
-    } catch (const InputError& error) {
-        const bool is_machine_refusing = dynamic_cast<const ProgramRefused*>(&error) != nullptr;
-        return {{}, error.what(), caps_by_hand(std::move(caps), error.what()), {}, is_machine_refusing};
+PiecePrograms without_programs(const std::string& because, bool is_machine_refusing, std::vector<DrawnCap> caps) {
+    return {{}, because, caps_by_hand(std::move(caps), because), {}, is_machine_refusing};
+}
+
+ToolpathSettings settings_for(const Cell& cell, FineTools fine, const std::map<std::uint16_t, double>& feed_shares) {
+    ToolpathSettings settings;
+    settings.scallop = cell.machine->program.scallop;
+    settings.fine = fine;
+    settings.feed_shares = feed_shares;
+    return settings;
+}
+
+// What follows after the toolpath.
+PiecePrograms programs_along(FollowedToolpath followed, const Piece& piece, const PlacedSetup& known,
+                             std::uint16_t piece_no, const Cell& cell, std::vector<DrawnCap> caps,
+                             const Context& context) {
+    if (!followed.none_because.empty()) {
+        return without_programs(followed.none_because, followed.is_machine_refusing, std::move(caps));
     }
-    const auto& [made, posted, piece_setup] = *program;
+    const Cell planned = with_tools(cell, known.setup().tools);
+    const PlacedSetup piece_setup = followed.place ? placed_at(known, piece, planned, *followed.place).value() : known;
     const Setup& setup = piece_setup.setup();
+    MadePath made{std::move(followed.toolpath), {}};
+    PostedProgram posted;
+    try {
+        const StageTimer stage(context, "programs made");
+        made.drilling = drilling_of(followed.removed, piece, piece_setup, planned, caps, context);
+        posted = make_parts(made, piece_setup, piece_no, planned, context);
+    } catch (const InputError& error) {
+        return without_programs(error.what(), dynamic_cast<const ProgramRefused*>(&error) != nullptr, std::move(caps));
+    }
+    followed.removed.clear();
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
-    if (setup.placement != known.setup().placement) programs.place = setup.placement;
+    programs.place = followed.place;
     programs.caps = decided(std::move(caps), made.drilling);
     std::vector<JobCap> job_caps;
     for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
@@ -322,7 +331,7 @@ PiecePrograms programs_with(const ToolpathSettings& settings, const Piece& piece
     Bytes stock;  // what the part before left
     while (programs.parts.size() < posted.parts.size()) {
         ProvenProgram proven;
-        proven.input = program_of(posted, programs.parts.size() + 1, made, *planned.machine, settings);
+        proven.input = program_of(posted, programs.parts.size() + 1, made, *planned.machine);
         proven.input.stock = std::move(stock);
         const StageTimer stage(context, "programs replayed");
         bytes_read += bytes_of(posted.parts[programs.parts.size()]);
@@ -372,18 +381,39 @@ std::set<std::uint16_t> too_fast_tools(const std::vector<ProvenProgram>& parts) 
     return tools;
 }
 
+FollowedToolpath follow_toolpath(const Piece& piece, const PlacedSetup& known, const Cell& cell, const Context& context,
+                                 FineTools fine, const std::map<std::uint16_t, double>& feed_shares) {
+    ToolpathSettings settings = settings_for(cell, fine, feed_shares);
+    const Cell planned = with_tools(cell, known.setup().tools);
+    try {
+        try {
+            return followed_with(settings, piece, known, planned, context);
+        } catch (const ProgramRefused&) {
+            // Poses are known of tips on the block, not of all that roughing takes beside it.
+            settings.beside_block = narrowly_beside;
+            return followed_with(settings, piece, known, planned, context);
+        }
+    } catch (const InputError& error) {
+        FollowedToolpath none;
+        none.none_because = error.what();
+        none.is_machine_refusing = dynamic_cast<const ProgramRefused*>(&error) != nullptr;
+        return none;
+    }
+}
+
 PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
-                            const std::vector<DrawnCap>& caps, const Context& context, FineTools fine) {
-    ToolpathSettings settings;
-    settings.scallop = cell.machine->program.scallop;
-    settings.fine = fine;
+                            const std::vector<DrawnCap>& caps, const Context& context, FineTools fine,
+                            std::optional<FollowedToolpath> followed) {
+    std::map<std::uint16_t, double> feed_shares;
     for (int made = 1;; ++made) {
-        PiecePrograms programs = programs_with(settings, piece, known, piece_no, cell, caps, context);
+        if (!followed) followed = follow_toolpath(piece, known, cell, context, fine, feed_shares);
+        PiecePrograms programs = programs_along(*std::move(followed), piece, known, piece_no, cell, caps, context);
+        followed.reset();
         const std::set<std::uint16_t> too_fast = too_fast_tools(programs.parts);
         if (made == most_feeds) return programs;
         std::string numbers;
         for (const CuttingTool& tool : cell.machine->tools) {
-            double& share = settings.feed_shares.try_emplace(tool.number, 1).first->second;
+            double& share = feed_shares.try_emplace(tool.number, 1).first->second;
             if (!too_fast.contains(tool.number) || share * tool.feed_max_mm_per_s <= tool.feed_min_mm_per_s) continue;
             share *= slower;
             numbers += (numbers.empty() ? "" : ", ") + std::to_string(tool.number);

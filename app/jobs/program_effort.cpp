@@ -32,7 +32,7 @@ struct Step {
     double from = 0;
     double to = 0;
 };
-constexpr double made = 0.5;  // share of toolpath and program
+constexpr double made = 0.5;  // share of toolpath and program, of all steps
 constexpr Step toolpath_step{"operations of the toolpath", 0, 0.97};
 constexpr std::string_view carving = "moves carved";
 constexpr std::array proof_steps{Step{"steps of the program followed", 0, 0.01}, Step{carving, 0.01, 0.75},
@@ -49,6 +49,11 @@ double at(const Step& of, const Progress& step) {
     constexpr double cost_of_first_moves = 0.8;  // exponent
     const double share = step.what == carving ? std::pow(ratio(step), cost_of_first_moves) : ratio(step);
     return of.from + share * (of.to - of.from);
+}
+
+double toolpath_share(ProgramSteps steps) {
+    if (steps == ProgramSteps::all) return made;
+    return steps == ProgramSteps::toolpath ? 1 : 0;
 }
 
 }  // namespace
@@ -83,8 +88,12 @@ double rest_of_work(std::vector<double> begun, const std::vector<double>& waitin
     return *std::ranges::max_element(begun);
 }
 
-ProgramProgress::ProgramProgress(const Context& context, const std::vector<PlannedProgram>& programs)
-    : context_(context), what_("% of the time for " + counted(programs.size(), "program")), started_(Clock::now()) {
+ProgramProgress::ProgramProgress(const Context& context, const std::vector<PlannedProgram>& programs,
+                                 ProgramSteps steps)
+    : context_(context),
+      toolpath_share_(toolpath_share(steps)),
+      what_("% of the time for " + counted(programs.size(), steps == ProgramSteps::toolpath ? "toolpath" : "program")),
+      started_(Clock::now()) {
     for (const PlannedProgram& program : programs) items_.emplace_back().effort = program.effort;
     if (!items_.empty()) context_.progress(what_, 0, 100);
 }
@@ -113,10 +122,10 @@ void ProgramProgress::finish(std::size_t index) {
 
 void ProgramProgress::take(Item& item, const Progress& step) {
     double done = 0;
-    if (step.what == toolpath_step.what) done = made * at(toolpath_step, step);
+    if (step.what == toolpath_step.what) done = toolpath_share_ * at(toolpath_step, step);
     if (step.what == parts_step) {
-        item.before = done = made + (1 - made) * item.read;
-        item.of_part = (1 - made) * (ratio(step) - item.read);
+        item.before = done = toolpath_share_ + (1 - toolpath_share_) * item.read;
+        item.of_part = (1 - toolpath_share_) * (ratio(step) - item.read);
         item.read = ratio(step);
     }
     const auto proof = std::ranges::find(proof_steps, step.what, &Step::what);

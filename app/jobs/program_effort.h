@@ -35,6 +35,9 @@ std::string describe(const std::vector<PlannedProgram>& programs);
 // free first. O(items).
 double rest_of_work(std::vector<double> begun, const std::vector<double>& waiting);
 
+// Which steps of its program are made of each piece.
+enum class ProgramSteps { all, toolpath, after_toolpath };
+
 // Reports per cent of the time that all programs take, so that a caller that goes on evenly finds the time left. Its
 // functions may be called from several threads. The context must outlive it.
 class ProgramProgress {
@@ -42,7 +45,8 @@ class ProgramProgress {
     using Clock = std::chrono::steady_clock;
 
     // In the order in which they are begun.
-    ProgramProgress(const Context& context, const std::vector<PlannedProgram>& programs);
+    ProgramProgress(const Context& context, const std::vector<PlannedProgram>& programs,
+                    ProgramSteps steps = ProgramSteps::all);
 
     // For the work on one program: the counts of its steps become a share of it.
     Context of(std::size_t index, const Context& context);
@@ -67,6 +71,7 @@ class ProgramProgress {
     void report();
 
     const Context& context_;
+    double toolpath_share_;  // of the steps of a piece
     std::string what_;
     std::vector<Item> items_;
     Clock::time_point started_;

@@ -441,6 +441,13 @@ void InProcessStock::remove_above(std::size_t orientation, const HeightField& ma
     }
 }
 
+std::vector<RemovedFoam> InProcessStock::removed(double factor) const {
+    std::vector<RemovedFoam> all;
+    all.reserve(removed_.size());
+    for (const Removed& own : removed_) all.push_back({own.orientation, coarser(own.down_to, factor)});
+    return all;
+}
+
 bool InProcessStock::may_be_stock(Vec3 point) const {
     const Box block = setup_->block_box();
     for (int i = 0; i < 3; ++i) {

@@ -43,6 +43,12 @@ class ToolSweep {
     std::vector<float> above_;  // by the square of the distance from the axis: the tool's highest point over the cell
 };
 
+// What milling along a direction has removed: all above the heights of a map, infinite where it has removed nothing.
+struct RemovedFoam {
+    std::size_t orientation = 0;
+    HeightField down_to;
+};
+
 class InProcessStock {
  public:
     // The whole block. The setup must outlive it.
@@ -61,6 +67,10 @@ class InProcessStock {
     // All above the heights of a map of a direction is gone: infinite where nothing was removed. The maps of one
     // direction must have the same cells.
     void remove_above(std::size_t orientation, const HeightField& map);
+
+    // What remove_above() was told, on cells `factor` times as wide, of which each has lost what all of its cells have.
+    // Precondition: factor >= 1.
+    std::vector<RemovedFoam> removed(double factor) const;
 
     // Whether a point in setup coordinates may be foam. O(directions).
     bool may_be_stock(Vec3 point) const;

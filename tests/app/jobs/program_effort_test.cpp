@@ -112,6 +112,26 @@ TEST(ProgramProgress, FindsTheTimeLeftFromTheStepsOfThoseUnderWay) {
     EXPECT_EQ(percent, 100U);
 }
 
+// Toolpaths are made of all pieces first, and then programs along them.
+TEST(ProgramProgress, OfSomeStepsGoesToTheEndWithThem) {
+    Context context;
+    std::string what;
+    context.on_progress = [&](const Progress& step) { what = step.what; };
+    const auto share_after = [&](ProgramSteps steps, const char* step) {
+        ProgramProgress progress(context, {{"E", 10}}, steps);
+        const Context own = progress.of(0, context);
+        const Clock::time_point start = Clock::now();
+        own.progress("operations of the toolpath", 90, 90);
+        if (steps != ProgramSteps::toolpath) own.progress(step, 500, 1000);
+        return progress.share(start + std::chrono::seconds(10));
+    };
+    EXPECT_NEAR(share_after(ProgramSteps::toolpath, ""), 0.97, 0.01);
+    EXPECT_EQ(what, "% of the time for 1 toolpath");
+    EXPECT_NEAR(share_after(ProgramSteps::all, "bytes of the program read"), 0.5, 0.01);
+    EXPECT_EQ(share_after(ProgramSteps::after_toolpath, "a step that nobody knows"), 0);
+    EXPECT_EQ(what, "% of the time for 1 program");
+}
+
 TEST(ProgramProgress, OfNothingReportsNothing) {
     Context context;
     context.on_progress = [](const Progress&) { FAIL(); };

@@ -131,6 +131,11 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
         std::vector<HeightField> lowest;
         for (std::size_t d = 0; d < 2; ++d) highest.push_back(milled.stock.highest(d, milled.frames[d]));
         for (std::size_t d = 0; d < 2; ++d) lowest.push_back(milled.stock.lowest(d, milled.frames[d]));
+        InProcessStock wide(setup);
+        for (const RemovedFoam& removed : milled.stock.removed(4)) {
+            EXPECT_NEAR(removed.down_to.cell, 4 * 1.3, 1e-9);
+            wide.remove_above(removed.orientation, removed.down_to);
+        }
         std::size_t foam = 0;
         std::size_t told = 0;
         for (int k = 0; k < 20000; ++k) {
@@ -141,6 +146,7 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
             if (!milled.is_stock(p)) continue;
             ++foam;
             ASSERT_TRUE(milled.stock.may_be_stock(p));
+            ASSERT_TRUE(wide.may_be_stock(p));
             for (std::size_t d = 0; d < 2; ++d) {
                 const Vec3 q = setup_to_field(setup, highest[d], p);
                 const auto c = static_cast<std::size_t>(q.x / 1.3);
