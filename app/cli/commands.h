@@ -36,6 +36,10 @@ int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
 int run(const SchemaArguments& arguments, Terminal& terminal);
 
+struct GatherAnswer;
+// For gather and submit: what prepare shows, or why it is not there yet.
+int show(const GatherAnswer& answer, const std::filesystem::path& project, Terminal& terminal);
+
 // For prepare and gather: shows table or document and returns the exit code.
 int show(const PreparedProject& prepared, Terminal& terminal);
 

@@ -12,6 +12,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/local_engine.h"
+#include "app/engine/prepare_project.h"
 #include "app/engine/work_project.h"
 #include "app/store/project_folder.h"
 #include "base/child_process.h"
@@ -135,6 +136,21 @@ SlurmAnswer submit(const fs::path& file, const fs::path& project, const std::str
     return {array.text + " and " + after.text, {}};
 }
 
+// Until the arm refuses no piece that can be changed; each time it does, the others are kept.
+int make_locally(const fs::path& project, std::vector<ItemEstimate> items, const LocalLimits& limits,
+                 Terminal& terminal) {
+    while (true) {
+        work_locally(project, items, limits, terminal);
+        const GatherAnswer answer = gather_project(project, false, version(), terminal.context());
+        if (!answer.unmade.empty() || answer.refused.empty()) return show(answer, project, terminal);
+        PrepareOptions options{version(), {}};
+        options.has_programs = true;
+        options.has_items = true;
+        prepare_project(project, {}, options, terminal.context());
+        items = item_estimates(project, version());
+    }
+}
+
 }  // namespace
 
 int run(const SubmitArguments& a, Terminal& terminal) {
@@ -157,8 +173,8 @@ int run(const SubmitArguments& a, Terminal& terminal) {
     }
     if (!is_all_made && a.engine == "local") {
         terminal.set_unchanged("Pieces that are made are kept, and the same command makes the rest.");
-        work_locally(project, items, {a.shards, 1e6 * a.memory_mb.value_or(0), a.has_retry}, terminal);
-        return run(GatherArguments{a.project}, terminal);
+        return make_locally(project, std::move(items), {a.shards, 1e6 * a.memory_mb.value_or(0), a.has_retry},
+                            terminal);
     }
     const ArrayJob job = array_job(items, a.shards);
     if (job.tasks.empty()) {

@@ -39,22 +39,32 @@ int run(const WorkArguments& a, Terminal& terminal) {
 int run(const GatherArguments& a, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const std::filesystem::path folder = without_slash(a.project);
-    const GatherAnswer answer = gather_project(folder, a.make_missing, version(), terminal.context());
-    const std::filesystem::path failed = folder / "work" / "failed.jsonl";
-    if (answer.prepared) {
-        std::filesystem::remove(failed);
-        return show(*answer.prepared, terminal);
+    return show(gather_project(folder, a.make_missing, version(), terminal.context()), folder, terminal);
+}
+
+int show(const GatherAnswer& answer, const std::filesystem::path& project, Terminal& terminal) {
+    const std::filesystem::path failed = project / "work" / "failed.jsonl";
+    std::error_code error;
+    std::filesystem::remove(failed, error);
+    if (answer.prepared) return show(*answer.prepared, terminal);
+    for (const WorkedPiece& piece : answer.refused) terminal.warn({refused_line(piece)});
+    const std::string name = shell_word(project);
+    if (!answer.unmade.empty()) {
+        write_file(failed, json_lines(answer.unmade));
+        std::vector<std::string> missing;
+        for (const UnmadePiece& piece : answer.unmade) {
+            missing.push_back(piece.piece);
+            terminal.warn({unmade_line(piece)});
+        }
+        throw InputError(InputFault::missing,
+                         "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing) +
+                             "; work/failed.jsonl says what is known of them",
+                         "make them: qchopper work " + name + ", or gather with --make-missing");
     }
-    write_file(failed, json_lines(answer.unmade));
-    std::vector<std::string> missing;
-    for (const UnmadePiece& piece : answer.unmade) {
-        missing.push_back(piece.piece);
-        terminal.warn({unmade_line(piece)});
-    }
-    throw InputError(InputFault::missing,
-                     "no whole result of " + counted(missing.size(), "piece") + ": " + list_of_pieces(missing) +
-                         "; work/failed.jsonl says what is known of them",
-                     "make them: qchopper work " + shell_word(folder) + ", or gather with --make-missing");
+    terminal.message("Programs that are proven are kept. Next: qchopper prepare " + name +
+                     " --items, which changes these pieces, then qchopper submit " + name + " or qchopper work " +
+                     name + "; or qchopper gather " + name + " --make-missing, which does it all here");
+    return exit_demand_broken;
 }
 
 }  // namespace qchopper

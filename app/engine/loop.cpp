@@ -48,21 +48,27 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
         if (end) result.end = end;
     }
     if (observer.on_cut) observer.on_cut(result.end);
-    if (options.last == LoopStep::setups) result.prepared = project.set_up(result.end, observer, context);
+    const auto is_changed = [&](const PreparedProject& prepared) {
+        if (!refuses_long_tools(project, prepared, context)) {
+            return take_fewer_orientations(project, prepared, context);
+        }
+        result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
+        return true;
+    };
+    const auto change_refused = [&](MissingToolpaths missing) {
+        while (is_changed(project.follow_toolpaths(missing, options.program_version, context))) {
+        }
+    };
+    if (options.last == LoopStep::setups) {
+        change_refused(MissingToolpaths::left_out);
+        result.prepared = project.set_up(result.end, observer, context);
+    }
     if (options.last == LoopStep::jobs) {
         const auto write = [&] {
             return project.write_outputs(result.end, options.program_version, observer, context);
         };
-        const auto is_changed = [&](const PreparedProject& prepared) {
-            if (!refuses_long_tools(project, prepared, context)) {
-                return take_fewer_orientations(project, prepared, context);
-            }
-            result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
-            return true;
-        };
         // Pieces that the arm refuses are changed before programs are proven, which those beside them would lose.
-        while (is_changed(project.follow_toolpaths(options.program_version, context))) {
-        }
+        change_refused(MissingToolpaths::made);
         result.prepared = write();
         while (is_changed(*result.prepared)) result.prepared = write();
     }

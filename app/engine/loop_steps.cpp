@@ -295,10 +295,11 @@ PreparedProject OpenProject::set_up(const std::optional<SearchEnd>& end, const L
     return prepared;
 }
 
-PreparedProject OpenProject::follow_toolpaths(const std::string& program_version, const Context& context) {
+PreparedProject OpenProject::follow_toolpaths(MissingToolpaths missing, const std::string& program_version,
+                                              const Context& context) {
     PreparedProject prepared = pieces_for_jobs({}, context);
     prepared.pieces = qchopper::follow_toolpaths(folder_, project_, segmentation(), *setups(), prepared.joints.joints,
-                                                 program_version, context);
+                                                 program_version, missing, context);
     prepared.project = project_;
     return prepared;
 }
@@ -315,10 +316,16 @@ WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const 
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         context.check_cancelled();
         context.progress("items written", i, pieces.size());
-        const WorkItem item = item_of(folder_, project_, segmentation(), i, *setups(), joints, program_version);
+        WorkItem item = item_of(folder_, project_, segmentation(), i, *setups(), joints, program_version);
+        item.had_result = item.has_program() && result_of(item, folder_ / "cache");
         write_file(items_folder(folder_) / (pieces[i].name + item_ending), to_bytes(item));
         if (!item.has_program()) continue;
         ++written.count;
+        if (item.had_result) {
+            copy_result(item, folder_ / "cache", folder_ / "work" / "results");
+            ++written.kept;
+            continue;
+        }
         written.all_s += item.effort;
         written.largest_s = std::max(written.largest_s, item.effort);
     }

@@ -24,9 +24,11 @@
 
 namespace qchopper {
 
-// Of what programs are made from, with the estimated time of making them: CPU seconds of one processor of 2026.
+// Of what programs are made from, with the estimated time of making those that are not kept: CPU seconds of one
+// processor of 2026.
 struct WrittenItems {
-    std::size_t count = 0;
+    std::size_t count = 0;  // of pieces that get a program
+    std::size_t kept = 0;   // of them, those that have it
     double all_s = 0;
     double largest_s = 0;
 };
@@ -153,10 +155,11 @@ class OpenProject {
     // what check_cell throws.
     PreparedProject set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer, const Context& context);
     // The same, and what the arm says of the toolpaths of the pieces (follow_toolpaths() of app/jobs/piece_jobs.h).
-    PreparedProject follow_toolpaths(const std::string& program_version, const Context& context);
-    // Writes work/items/<piece>.qitem of every piece (work_project.h), in place of those that are there; those that get
-    // a program are counted. `joints` are those of all pieces. Precondition: set_up(). Throws InputError (use) for a
-    // cell whose jobs get no programs, what write_file throws, Cancelled.
+    PreparedProject follow_toolpaths(MissingToolpaths missing, const std::string& program_version,
+                                     const Context& context);
+    // Writes work/items/<piece>.qitem of every piece (work_project.h), in place of those that are there, and copies
+    // programs that are kept into work/results. `joints` are those of all pieces. Precondition: set_up(). Throws
+    // InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
     WrittenItems write_items(std::span<const PieceJoint> joints, const std::string& program_version,
                              const Context& context);
     // Takes pieces and setups that another run has made, so that write_outputs() needs no scan and chooses no setup.

@@ -108,25 +108,24 @@ std::vector<WorkItem> items_of_project(OpenProject& project, const std::string& 
     return items;
 }
 
-// Copies whole results into the cache, where write_jobs() finds them.
-std::vector<UnmadePiece> take_results(const fs::path& folder, const std::vector<WorkItem>& items,
-                                      const ProjectContext& context) {
+// Copies whole results into the cache, where write_jobs() finds them, and tells of the others.
+void take_results(const fs::path& folder, const std::vector<WorkItem>& items, const ProjectContext& context,
+                  GatherAnswer& answer) {
     const fs::path results = folder / "work" / "results";
-    std::vector<UnmadePiece> unmade;
-    fs::create_directories(folder / "cache");
     for (std::size_t i = 0; i < items.size(); ++i) {
         context.check_cancelled();
         context.progress("results checked", i, items.size());
         const WorkItem& item = items[i];
         if (!item.has_program()) continue;
-        if (result_of(item, results)) {
-            write_file(folder / "cache" / item.result, read_file(results / item.result));
-        } else {
-            unmade.push_back(unmade_piece(item, attempts_at(item.result, folder / "work" / "attempts")));
+        const std::optional<WorkedPiece> result = result_of(item, results);
+        if (!result) {
+            answer.unmade.push_back(unmade_piece(item, attempts_at(item.result, folder / "work" / "attempts")));
+            continue;
         }
+        copy_result(item, results, folder / "cache");
+        if (result->is_machine_refusing && !item.had_result) answer.refused.push_back(*result);
     }
-    std::ranges::sort(unmade, {}, &UnmadePiece::piece);
-    return unmade;
+    std::ranges::sort(answer.unmade, {}, &UnmadePiece::piece);
 }
 
 // The project that all items are of; empty: of several, or of none.
@@ -279,14 +278,9 @@ GatherAnswer gather_project(const fs::path& folder, bool makes_missing, const st
     {
         LockedProject open(folder, {}, context);
         std::vector<WorkItem> items = items_of_project(open.project, program_version, context);
-        answer.unmade = take_results(folder, items, context);
-        if (!answer.unmade.empty() && !makes_missing) return answer;
+        take_results(folder, items, context, answer);
         context.saved("Programs that are made are kept, and the same command goes on with them.");
-        const bool is_refused = std::ranges::any_of(items, [&](const WorkItem& item) {
-            const auto result = item.has_program() ? result_of(item, folder / "cache") : std::nullopt;
-            return result && result->is_machine_refusing;
-        });
-        if (!is_refused) {
+        if (answer.unmade.empty() && answer.refused.empty()) {
             std::vector<Piece> pieces;
             std::vector<PlacedSetup> setups;
             for (WorkItem& item : items) {
@@ -296,10 +290,10 @@ GatherAnswer gather_project(const fs::path& folder, bool makes_missing, const st
             open.project.set_has_programs(true);
             open.project.take_pieces(std::move(pieces), std::move(setups));
             answer.prepared = open.project.write_outputs({}, program_version, {}, context);
-            const auto is_refusing = [](const PieceReport& piece) { return piece.is_machine_refusing; };
-            if (std::ranges::none_of(answer.prepared->pieces, is_refusing)) return answer;
+            return answer;
         }
     }
+    if (!makes_missing) return answer;
     PrepareOptions options{program_version, {}};
     options.has_programs = true;
     answer.prepared = prepare_project(folder, {}, options, context);

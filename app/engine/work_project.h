@@ -84,14 +84,15 @@ WorkAnswer work_done(const std::vector<std::filesystem::path>& inputs, const std
 
 struct GatherAnswer {
     std::vector<UnmadePiece> unmade;          // whose result is missing or damaged, by name
-    std::optional<PreparedProject> prepared;  // with jobs; nothing: something is unmade, and was not to be made here
+    std::vector<WorkedPiece> refused;         // of which the arm does not follow the toolpath, and which are changed
+    std::optional<PreparedProject> prepared;  // with jobs; nothing: one of these lists is not empty
 };
 
 // Writes the jobs of a project from its items and the whole results of them, which are copied into its cache. Needs no
-// scan and chooses no setup, unless the arm does not follow the toolpath of a piece: then it goes on as prepare does,
-// which may cut again. `makes_missing`: makes the programs of the unmade ones. Throws what LockedProject throws,
-// InputError (missing) if there is no item or those of other pieces, (use) if the cell file is another one since, what
-// work_items() and prepare_project() throw.
+// scan and chooses no setup. Pieces that the arm refuses are to be cut again or milled from fewer orientations, as by
+// prepare: writing the items again does that, and keeps the results of the others. `makes_missing`: does it here, and
+// makes the programs that are missing then. Throws what LockedProject throws, InputError (missing) if there is no item
+// or those of other pieces, (use) if the cell file is another one since, what work_items() and prepare_project() throw.
 GatherAnswer gather_project(const std::filesystem::path& folder, bool makes_missing, const std::string& program_version,
                             const ProjectContext& context);
 

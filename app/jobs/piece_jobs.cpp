@@ -350,8 +350,8 @@ void in_order_of(const JobPlan& plan, ProgramSteps steps, StageTimer& stage, con
 }
 
 // Says in the report why there will be no program, if that is so.
-void follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, const Context& context,
-            PieceReport& report) {
+void follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, MissingToolpaths missing,
+            const Context& context, PieceReport& report) {
     if (report.is_only_sawn || !piece_setup.fits()) return;
     const JobInput input = job_input(orders, index, piece_setup);
     const ProgramSource source = source_of(orders, input);
@@ -362,6 +362,7 @@ void follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece
     }
     const fs::path file = toolpath_file(orders.folder / "cache", source);
     std::optional<FollowedToolpath> followed = kept_toolpath(file);
+    if (!followed && missing == MissingToolpaths::left_out) return;
     if (!followed) {
         followed = follow_toolpath(input.piece, piece_setup, orders.cell, context, source.fine);
         keep_toolpath(file, *followed);
@@ -413,7 +414,7 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
 std::vector<PieceReport> follow_toolpaths(const fs::path& folder, const Project& project,
                                           const Segmentation& segmentation, Setups& setups,
                                           std::span<const PieceJoint> joints, const std::string& program_version,
-                                          const Context& context) {
+                                          MissingToolpaths missing, const Context& context) {
     const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
     if (!none_because(orders).empty()) return {};
     StageTimer stage(context, "toolpaths followed");
@@ -422,9 +423,11 @@ std::vector<PieceReport> follow_toolpaths(const fs::path& folder, const Project&
     for (std::size_t i = 0; i < piece_setups.size(); ++i) {
         reports.push_back(report_of(folder, project, segmentation.pieces[i], *piece_setups[i], setups.cell()));
     }
+    JobPlan plan = plan_jobs(orders, piece_setups);
+    if (missing == MissingToolpaths::left_out) plan.programs.clear();
     in_order_of(
-        plan_jobs(orders, piece_setups), ProgramSteps::toolpath, stage, context,
-        [&](std::size_t i, const Context& own) { follow(orders, i, *piece_setups[i], own, reports[i]); },
+        plan, ProgramSteps::toolpath, stage, context,
+        [&](std::size_t i, const Context& own) { follow(orders, i, *piece_setups[i], missing, own, reports[i]); },
         [](std::size_t) {});
     return reports;
 }

@@ -55,14 +55,16 @@ WorkItem item_of(const std::filesystem::path& folder, const Project& project, co
 PieceReport report_without_job(const std::filesystem::path& folder, const Project& project, const Piece& piece,
                                Setups& setups);
 
-// Makes the toolpaths of all pieces that get a program and keeps them in the project's cache (kept_toolpaths.h), where
-// write_jobs() takes them. One report per piece, in which no_program_because and is_machine_refusing say what will
-// become of its program as far as the arm is asked; none in a project whose jobs get no programs. Throws Cancelled;
-// what is made stays.
+enum class MissingToolpaths { made, left_out };
+
+// One report per piece, in which no_program_because and is_machine_refusing say what will become of its program as far
+// as the arm was asked, by programs and toolpaths in the project's cache; none in a project whose jobs get no programs.
+// Toolpaths that are missing are made and kept there (kept_toolpaths.h), where write_jobs() takes them, or left out.
+// Throws Cancelled; what is made stays.
 std::vector<PieceReport> follow_toolpaths(const std::filesystem::path& folder, const Project& project,
                                           const Segmentation& segmentation, Setups& setups,
                                           std::span<const PieceJoint> joints, const std::string& program_version,
-                                          const Context& context);
+                                          MissingToolpaths missing, const Context& context);
 
 // Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell and the saw alone does not make
 // it, else removes them, and records them in the project, which is not saved. `index` is that of the piece in the

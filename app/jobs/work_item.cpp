@@ -277,6 +277,7 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
     const ReadJob read = from_manifest(manifest, file.string());
     item.fine = static_cast<FineTools>(below(in, fine_tools, file));
     item.result = in.text();
+    item.had_result = in.get<std::uint8_t>() != 0;
     item.effort = in.get<double>();
     item.cell_file = in.get_all<std::uint8_t>();
     item.cell = parse_cell(std::string(item.cell_file.begin(), item.cell_file.end()), file.string());
@@ -338,6 +339,7 @@ Bytes to_bytes(const WorkItem& item) {
     out.put(manifest_of(item.job));
     out.put(static_cast<std::uint8_t>(item.fine));
     out.put(item.result);
+    out.put(static_cast<std::uint8_t>(item.had_result));
     out.put(item.effort);
     out.put_all(item.cell_file);
     put(out, *item.job.piece.mesh);
@@ -370,6 +372,11 @@ std::optional<WorkedPiece> result_of(const WorkItem& item, const fs::path& resul
     const std::optional<PiecePrograms> kept = kept_programs(results / item.result, source_of(item));
     if (!kept) return std::nullopt;
     return worked(item.job.piece.name, *kept, true);
+}
+
+void copy_result(const WorkItem& item, const fs::path& from, const fs::path& to) {
+    fs::create_directories(to);
+    write_file(to / item.result, read_file(from / item.result));
 }
 
 WorkedPiece work_on(const WorkItem& item, const fs::path& results, const Context& context) {

@@ -41,6 +41,9 @@ struct WorkItem {
     // Name of the file that its programs are kept in (kept_programs.h); empty: it gets none, because it does not fit
     // the cell or the saw alone makes it.
     std::string result;
+    // Whether there was a result when the item was written: pieces that the arm refused by then have been changed if
+    // anything helps.
+    bool had_result = false;
     double effort = 0;  // program_effort(): a machine makes so and so much of it per second; 0 without a program
     bool has_program() const { return !result.empty(); }
 };
@@ -60,6 +63,10 @@ WorkItem item_from(const Bytes& bytes, const std::filesystem::path& source, cons
 // may work on one item at once. Precondition: has_program(). Throws Cancelled; std::logic_error if a result that came
 // meanwhile has other bytes: both are kept then, the second as NAME.second.
 WorkedPiece work_on(const WorkItem& item, const std::filesystem::path& results, const Context& context);
+
+// Copies the result of an item from one folder to another, which is made. Precondition: it is there. Throws what
+// read_file and write_file throw.
+void copy_result(const WorkItem& item, const std::filesystem::path& from, const std::filesystem::path& to);
 
 // What is known of the result of an item; nothing if there is none, or it is damaged.
 std::optional<WorkedPiece> result_of(const WorkItem& item, const std::filesystem::path& results);

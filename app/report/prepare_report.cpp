@@ -76,6 +76,12 @@ std::vector<MachineTime> times_of(const PreparedProject& prepared) {
     return merged(rows);
 }
 
+const char* next_command(const PreparedProject& prepared) {
+    const WrittenItems& items = prepared.items;
+    if (items.count > 0) return items.kept < items.count ? "work" : "gather";
+    return prepared.project.jobs.empty() ? "setup" : "dry-run";
+}
+
 // "2 jobs", or "3 jobs of 2 pieces" where the program of a piece has several parts.
 std::string job_count(const PreparedProject& prepared) {
     const std::vector<WrittenJob>& jobs = prepared.project.jobs;
@@ -218,12 +224,13 @@ std::vector<std::string> table(const PreparedProject& prepared) {
                         "/pictures.");
     } else {
         const auto seconds = [](double s) { return duration(static_cast<std::uint32_t>(std::ceil(s))); };
-        lines.push_back(pieces + "; programs of " + std::to_string(prepared.items.count) + " of them, from " + folder +
-                        "/work/items, take about " + seconds(prepared.items.all_s) + " of one processor, the largest " +
-                        seconds(prepared.items.largest_s) + ".");
+        const std::size_t kept = prepared.items.kept;
+        const std::string made = kept > 0 ? ", " + std::to_string(kept) + " of which are kept" : std::string();
+        lines.push_back(pieces + "; programs of " + std::to_string(prepared.items.count) + " of them" + made +
+                        ", from " + folder + "/work/items, take about " + seconds(prepared.items.all_s) +
+                        " of one processor, the largest " + seconds(prepared.items.largest_s) + ".");
     }
-    const char* next = prepared.items.count > 0 ? "work " : prepared.project.jobs.empty() ? "setup " : "dry-run ";
-    lines.push_back(std::string("Next: qchopper ") + next + shell_word(prepared.folder));
+    lines.push_back(std::string("Next: qchopper ") + next_command(prepared) + " " + shell_word(prepared.folder));
     return lines;
 }
 

@@ -116,6 +116,11 @@ std::string unmade_line(const UnmadePiece& piece) {
            fixed(static_cast<double>(piece.bytes) / 1e6, 0) + " MB of memory at most";
 }
 
+std::string refused_line(const WorkedPiece& piece) {
+    return "piece " + piece.name + ": " + piece.none_because +
+           "; it has to be cut again, or milled from fewer orientations";
+}
+
 std::string json_lines(const std::vector<UnmadePiece>& pieces) {
     std::string text;
     for (const UnmadePiece& piece : pieces) text += json_values::to_document(piece, -1);

@@ -23,6 +23,9 @@ std::string worked_line(const WorkedPiece& piece);
 // last on node2, process 4712, at moves carved (out of memory), 800 MB of memory at most".
 std::string unmade_line(const UnmadePiece& piece);
 
+// "piece C: no arm posture reaches it: ...; it has to be cut again, or milled from fewer orientations".
+std::string refused_line(const WorkedPiece& piece);
+
 // A line of JSON for each, and at its end a line feed.
 std::string json_lines(const std::vector<UnmadePiece>& pieces);
 

@@ -136,10 +136,11 @@ TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsUntilO
     EXPECT_FALSE(order().has_value());
 }
 
-// What other processes found out is decided about here, as prepare does; the scan is needed for it alone.
+// What other processes found out is decided about when the items are written again, as prepare does.
 TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsWhenItIsGathered) {
     PrepareOptions options{"1.0", {}};
     options.has_items = true;
+    fs::remove_all(project_folder / "cache");
     const PreparedProject prepared = prepare_project(project_folder, {}, options, context());
     const std::size_t before = prepared.pieces[1].piece_setup.setup().access.orientations.size();
     const fs::path file = items_folder(project_folder) / "B.qitem";
@@ -152,13 +153,51 @@ TEST_F(KeptWork, APieceThatTheArmCannotFollowIsMilledFromFewerOrientationsWhenIt
     const WorkAnswer worked = work_items({project_folder}, {}, "1.0", {}, context());
     ASSERT_EQ(worked.pieces.size(), 2U);
     EXPECT_EQ(worked.pieces[1].outcome, ProgramOutcome::none) << "it is not tried again";
-    const GatherAnswer gathered = gather_project(project_folder, false, "1.0", context());
-    EXPECT_TRUE(gathered.unmade.empty());
-    ASSERT_TRUE(gathered.prepared);
-    EXPECT_EQ(made(*gathered.prepared), "B");
+    const GatherAnswer early = gather_project(project_folder, false, "1.0", context());
+    EXPECT_TRUE(early.unmade.empty());
+    EXPECT_FALSE(early.prepared);
+    ASSERT_EQ(early.refused.size(), 1U);
+    EXPECT_EQ(early.refused[0].name, "B");
+
+    const PreparedProject again = prepare_project(project_folder, {}, options, context());
     EXPECT_NE(messages.find("piece B: no arm posture reaches it; it is milled from "), std::string::npos) << messages;
-    EXPECT_EQ(committed_setup_order(gathered.prepared->project.history, "B").max_directions, before - 1);
-    EXPECT_FALSE(fs::exists(items_folder(project_folder))) << "they are those of another setup";
+    EXPECT_EQ(committed_setup_order(again.project.history, "B").max_directions, before - 1);
+    EXPECT_EQ(again.items.count, 2U);
+    EXPECT_EQ(again.items.kept, 1U) << "A";
+    const WorkAnswer rest = work_items({project_folder}, {}, "1.0", {}, context());
+    ASSERT_EQ(rest.pieces.size(), 2U);
+    EXPECT_TRUE(rest.pieces[0].was_kept);
+    EXPECT_FALSE(rest.pieces[1].was_kept);
+    const GatherAnswer gathered = gather_project(project_folder, false, "1.0", context());
+    ASSERT_TRUE(gathered.prepared);
+    EXPECT_EQ(made(*gathered.prepared), "") << "all were made by work";
+}
+
+// Of a piece that nothing helps the job is written without a program, as prepare does; it is not asked for again.
+TEST_F(KeptWork, APieceThatTheArmRefusesWithOneOrientationIsGatheredWithoutAProgram) {
+    SetupOrder order;
+    order.piece = "B";
+    order.max_directions = 1;
+    change([&](OpenProject& project) { EXPECT_TRUE(project.decide_setup(order)); });
+    PrepareOptions options{"1.0", {}};
+    options.has_items = true;
+    const auto put_refusal = [&](const fs::path& folder) {
+        const fs::path file = items_folder(project_folder) / "B.qitem";
+        const WorkItem item = item_from(read_file(file), file, "1.0");
+        PiecePrograms refused{{}, "no arm posture reaches it", item.job.caps};
+        refused.is_machine_refusing = true;
+        keep_programs(folder / item.result, {item.job, sha256(item.cell_file), item.fine}, refused);
+    };
+    prepare_project(project_folder, {}, options, context());
+    put_refusal(project_folder / "work" / "results");
+    EXPECT_EQ(gather_project(project_folder, false, "1.0", context()).refused.size(), 1U);
+    prepare_project(project_folder, {}, options, context());
+    const GatherAnswer gathered = gather_project(project_folder, false, "1.0", context());
+    EXPECT_TRUE(gathered.refused.empty());
+    ASSERT_TRUE(gathered.prepared);
+    EXPECT_TRUE(gathered.prepared->pieces[0].is_proven());
+    EXPECT_EQ(gathered.prepared->pieces[1].no_program_because, "no arm posture reaches it");
+    EXPECT_TRUE(fs::exists(gathered.prepared->pieces[1].job));
 }
 
 // B is then the first of one piece: names in its program change, and nothing else.
