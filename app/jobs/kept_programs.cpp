@@ -24,16 +24,12 @@ namespace fs = std::filesystem;
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
 constexpr std::uint32_t version_of_programs = 7;
 
-void put(CacheWriter& out, const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) out.put(x);
-}
-
 void put(CacheWriter& out, const JobHole& hole) {
     out.put(hole.number);
     out.put(hole.diameter);
     out.put(hole.depth);
-    put(out, hole.point);
-    put(out, hole.axis);
+    out.put(hole.point);
+    out.put(hole.axis);
     out.put(hole.by_hand);
 }
 
@@ -173,7 +169,7 @@ CacheWriter toolpath_source(const ProgramSource& source) {
     out.put(to_manifest(own, {}));
     out.put(envelope_document(own));
     const Piece& piece = source.job.piece;
-    for (const Vec3& point : piece.mesh->points) put(out, point);
+    for (const Vec3& point : piece.mesh->points) out.put(point);
     out.put_all(piece.mesh->triangles);
     out.put_all(piece.mesh->cap_of);
     out.put_all(std::vector<std::uint8_t>(source.cell_sha256.bytes.begin(), source.cell_sha256.bytes.end()));

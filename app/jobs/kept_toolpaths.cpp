@@ -14,25 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class Enum>
-Enum one_of(CacheReader& in, Enum last) {
-    const auto number = in.get<std::uint8_t>();
-    if (number > static_cast<std::uint8_t>(last)) throw std::runtime_error("a number of no kind");
-    return static_cast<Enum>(number);
-}
-
-void put(CacheWriter& out, const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) out.put(x);
-}
-
-Vec3 vec3_from(CacheReader& in) {
-    Vec3 v;
-    for (double* x : {&v.x, &v.y, &v.z}) *x = in.get<double>();
-    return v;
-}
-
 void put(CacheWriter& out, const PathRun& run) {
-    put(out, run.start);
+    out.put(run.start);
     out.put(run.hole);
     std::vector<double> numbers;
     std::vector<std::uint8_t> kinds;
@@ -48,7 +31,7 @@ void put(CacheWriter& out, const PathRun& run) {
 
 PathRun run_from(CacheReader& in) {
     PathRun run;
-    run.start = vec3_from(in);
+    run.start = in.vec3();
     run.hole = in.get<std::size_t>();
     const std::vector<double> numbers = in.get_all<double>();
     const std::vector<std::uint8_t> kinds = in.get_all<std::uint8_t>();
@@ -77,7 +60,7 @@ void put(CacheWriter& out, const Operation& operation) {
 
 Operation operation_from(CacheReader& in) {
     Operation operation;
-    operation.kind = one_of(in, OperationKind::drilling);
+    operation.kind = in.one_of(OperationKind::drilling);
     operation.tool = in.get<std::size_t>();
     operation.orientation = in.get<std::size_t>();
     for (double* value :
@@ -131,8 +114,8 @@ Toolpath toolpath_from(CacheReader& in) {
 }
 
 void put(CacheWriter& out, const HeightField& map) {
-    for (const Vec3& row : map.piece_in_field.row) put(out, row);
-    put(out, map.piece_in_field.shift);
+    for (const Vec3& row : map.piece_in_field.row) out.put(row);
+    out.put(map.piece_in_field.shift);
     out.put(map.cell);
     out.put(map.columns);
     out.put(map.rows);
@@ -141,8 +124,8 @@ void put(CacheWriter& out, const HeightField& map) {
 
 HeightField map_from(CacheReader& in) {
     HeightField map;
-    for (Vec3& row : map.piece_in_field.row) row = vec3_from(in);
-    map.piece_in_field.shift = vec3_from(in);
+    for (Vec3& row : map.piece_in_field.row) row = in.vec3();
+    map.piece_in_field.shift = in.vec3();
     map.cell = in.get<double>();
     map.columns = in.get<std::size_t>();
     map.rows = in.get<std::size_t>();

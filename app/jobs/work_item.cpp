@@ -51,18 +51,6 @@ std::string manifest_of(JobInput job) {
     return to_manifest(job, {});
 }
 
-std::uint8_t below(CacheReader& in, std::uint8_t count, const fs::path& file) {
-    const auto value = in.get<std::uint8_t>();
-    if (value >= count) refuse(file, "is damaged");
-    return value;
-}
-
-// What is read for a number of an enumeration with so many values.
-template <class Enum>
-Enum one_of(CacheReader& in, Enum last, const fs::path& file) {
-    return static_cast<Enum>(below(in, static_cast<std::uint8_t>(static_cast<std::uint8_t>(last) + 1), file));
-}
-
 // Their values one by one, written by the first and read by the second.
 struct PutValue {
     CacheWriter& out;
@@ -80,7 +68,6 @@ struct PutValue {
 
 struct GetValue {
     CacheReader& in;
-    const fs::path& file;
     template <class T>
     void operator()(T& value) {
         if constexpr (std::is_same_v<T, std::string>) {
@@ -90,11 +77,11 @@ struct GetValue {
         } else if constexpr (std::is_same_v<T, bool>) {
             value = in.get<std::uint8_t>() != 0;
         } else if constexpr (std::is_same_v<T, Remedy>) {
-            value = one_of(in, Remedy::cut, file);
+            value = in.one_of(Remedy::cut);
         } else if constexpr (std::is_same_v<T, PoseKind>) {
-            value = one_of(in, PoseKind::tool_change, file);
+            value = in.one_of(PoseKind::tool_change);
         } else if constexpr (std::is_same_v<T, PoseCheck>) {
-            value = one_of(in, PoseCheck::tool_to_arm, file);
+            value = in.one_of(PoseCheck::tool_to_arm);
         } else {
             value = in.get<T>();
         }
@@ -166,8 +153,8 @@ void put_each(CacheWriter& out, const std::vector<Element>& elements) {
 }
 
 template <class Element>
-void get_each(CacheReader& in, std::vector<Element>& elements, const fs::path& file) {
-    GetValue v{in, file};
+void get_each(CacheReader& in, std::vector<Element>& elements) {
+    GetValue v{in};
     for (std::size_t count = in.count(); count > 0; --count) each(v, elements.emplace_back());
 }
 
@@ -180,10 +167,10 @@ void put(CacheWriter& out, const MachineReachability& reachability) {
 
 MachineReachability reachability_from(CacheReader& in, const fs::path& file) {
     MachineReachability reachability;
-    GetValue v{in, file};
+    GetValue v{in};
     each(v, reachability);
-    get_each(in, reachability.margins, file);
-    get_each(in, reachability.regions, file);
+    get_each(in, reachability.margins);
+    get_each(in, reachability.regions);
     if (reachability.is_arm_checked && reachability.margins.empty()) refuse(file, "is damaged");
     return reachability;
 }
@@ -252,30 +239,24 @@ std::string manifest_with(JobInput job, const Setup& setup) {
 }
 
 void put_states(CacheWriter& out, const std::vector<SurfaceState>& states) {
-    std::vector<std::uint8_t> numbers;
-    numbers.reserve(states.size());
-    for (const SurfaceState state : states) numbers.push_back(static_cast<std::uint8_t>(state));
-    out.put_all(numbers);
+    out.put(states.size());
+    for (const SurfaceState state : states) out.put(static_cast<std::uint8_t>(state));
 }
 
 // Of each triangle, or none.
 std::vector<SurfaceState> states_from(CacheReader& in, std::size_t triangles, const fs::path& file) {
-    std::vector<SurfaceState> states;
-    for (const std::uint8_t number : in.get_all<std::uint8_t>()) {
-        if (number > static_cast<std::uint8_t>(SurfaceState::ignored)) refuse(file, "is damaged");
-        states.push_back(static_cast<SurfaceState>(number));
-    }
+    std::vector<SurfaceState> states(in.count());
+    for (SurfaceState& state : states) state = in.one_of(SurfaceState::ignored);
     if (!states.empty() && states.size() != triangles) refuse(file, "is damaged");
     return states;
 }
 
 // Only what the manifest of the same job gives is exact.
 WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
-    constexpr auto fine_tools = static_cast<std::uint8_t>(FineTools::none) + 1;
     WorkItem item;
     const std::string manifest = in.text();
     const ReadJob read = from_manifest(manifest, file.string());
-    item.fine = static_cast<FineTools>(below(in, fine_tools, file));
+    item.fine = in.one_of(FineTools::none);
     item.result = in.text();
     item.had_result = in.get<std::uint8_t>() != 0;
     item.effort = in.get<double>();

@@ -32,8 +32,12 @@ class CacheWriter {
         put(values.size());
         add(values.data(), values.size() * sizeof(T));
     }
+    void put(const Vec3& v) {
+        for (const double x : {v.x, v.y, v.z}) put(x);
+    }
     void put(const Plane& p) {
-        for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
+        put(p.normal);
+        put(p.offset);
     }
     void put(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
     const Bytes& bytes() const { return bytes_; }
@@ -50,7 +54,8 @@ class CacheWriter {
     Bytes bytes_;
 };
 
-// Never reads beyond the end, but returns zeros; is_whole() is then false.
+// Never reads beyond the end, but returns zeros, nor a value that an enumeration does not have, but its last one;
+// is_whole() is then false.
 class CacheReader {
  public:
     explicit CacheReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -58,7 +63,7 @@ class CacheReader {
     T get() {
         T value{};
         if (bytes_.size() < sizeof value) {
-            is_short_ = true;
+            is_wrong_ = true;
             return value;
         }
         std::memcpy(&value, bytes_.data(), sizeof value);
@@ -70,7 +75,7 @@ class CacheReader {
     std::vector<T> get_all() {
         const auto n = get<std::size_t>();
         if (n > bytes_.size() / sizeof(T)) {
-            is_short_ = true;
+            is_wrong_ = true;
             return {};
         }
         std::vector<T> values(n);
@@ -82,18 +87,31 @@ class CacheReader {
         const std::vector<char> characters = get_all<char>();
         return {characters.begin(), characters.end()};
     }
+    Vec3 vec3() {
+        Vec3 v;
+        for (double* x : {&v.x, &v.y, &v.z}) *x = get<double>();
+        return v;
+    }
+    // `last` is the last of values that begin at 0 and leave none out.
+    template <typename Enum>
+    Enum one_of(Enum last) {
+        const auto number = get<std::uint8_t>();
+        if (number <= static_cast<std::uint8_t>(last)) return static_cast<Enum>(number);
+        is_wrong_ = true;
+        return last;
+    }
     // A count of elements of at least one byte each.
     std::size_t count() {
         const auto n = get<std::size_t>();
         if (n <= bytes_.size()) return n;
-        is_short_ = true;
+        is_wrong_ = true;
         return 0;
     }
-    bool is_whole() const { return !is_short_ && bytes_.empty(); }
+    bool is_whole() const { return !is_wrong_ && bytes_.empty(); }
 
  private:
     std::span<const std::uint8_t> bytes_;
-    bool is_short_ = false;
+    bool is_wrong_ = false;
 };
 
 // The file in `folder` for what follows from the values in `key`: named by their SHA-256.

@@ -27,16 +27,6 @@ fs::path file_for(const fs::path& folder, const TriangleMesh& scan, const Struct
     return cache_file(folder, out, ".stress");
 }
 
-void put(CacheWriter& out, Vec3 v) {
-    for (const double x : {v.x, v.y, v.z}) out.put(x);
-}
-
-Vec3 vec3_from(CacheReader& in) {
-    Vec3 v;
-    for (double* x : {&v.x, &v.y, &v.z}) *x = in.get<double>();
-    return v;
-}
-
 void put(CacheWriter& out, const StructureReport& report) {
     for (const std::size_t n :
          {report.unknowns, report.iterations, report.standing_voxels, report.thin_voxels, report.hinges}) {
@@ -44,11 +34,11 @@ void put(CacheWriter& out, const StructureReport& report) {
     }
     out.put(report.residual);
     out.put(report.largest_tension_mpa);
-    put(out, report.largest_tension_at);
+    out.put(report.largest_tension_at);
     out.put(report.floating.size());
     for (const FloatingSolid& solid : report.floating) {
         out.put(solid.voxels);
-        put(out, solid.centre);
+        out.put(solid.centre);
         out.put(static_cast<std::uint8_t>(solid.is_hinged));
     }
 }
@@ -61,11 +51,11 @@ StructureReport report_from(CacheReader& in) {
     }
     report.residual = in.get<double>();
     report.largest_tension_mpa = in.get<double>();
-    report.largest_tension_at = vec3_from(in);
+    report.largest_tension_at = in.vec3();
     report.floating.resize(in.count());
     for (FloatingSolid& solid : report.floating) {
         solid.voxels = in.get<std::size_t>();
-        solid.centre = vec3_from(in);
+        solid.centre = in.vec3();
         solid.is_hinged = in.get<std::uint8_t>() != 0;
     }
     return report;
@@ -73,8 +63,8 @@ StructureReport report_from(CacheReader& in) {
 
 CacheWriter content_of(const StressedModel& model) {
     CacheWriter out;
-    for (const Vec3 axis : model.grid.axis) put(out, axis);
-    put(out, model.grid.corner);
+    for (const Vec3 axis : model.grid.axis) out.put(axis);
+    out.put(model.grid.corner);
     out.put(model.grid.size);
     for (const std::uint32_t n : model.grid.count) out.put(n);
     out.put(model.strength_mpa);
@@ -90,8 +80,8 @@ std::optional<StressedModel> found_in(const fs::path& file) {
     if (!bytes) return std::nullopt;
     CacheReader in(*bytes);
     StressedModel model;
-    for (Vec3& axis : model.grid.axis) axis = vec3_from(in);
-    model.grid.corner = vec3_from(in);
+    for (Vec3& axis : model.grid.axis) axis = in.vec3();
+    model.grid.corner = in.vec3();
     model.grid.size = in.get<double>();
     for (std::uint32_t& n : model.grid.count) n = in.get<std::uint32_t>();
     model.strength_mpa = in.get<double>();
