@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "app/engine/loop.h"
@@ -112,20 +113,29 @@ std::vector<WorkItem> items_of_project(OpenProject& project, const std::string& 
 void take_results(const fs::path& folder, const std::vector<WorkItem>& items, const ProjectContext& context,
                   GatherAnswer& answer) {
     const fs::path results = folder / "work" / "results";
+    std::set<std::string> libraries;
     for (std::size_t i = 0; i < items.size(); ++i) {
         context.check_cancelled();
         context.progress("results checked", i, items.size());
         const WorkItem& item = items[i];
         if (!item.has_program()) continue;
         const std::optional<WorkedPiece> result = result_of(item, results);
+        const std::vector<SeenAttempt> attempts = attempts_at(item.result, folder / "work" / "attempts");
         if (!result) {
-            answer.unmade.push_back(unmade_piece(item, attempts_at(item.result, folder / "work" / "attempts")));
+            answer.unmade.push_back(unmade_piece(item, attempts));
             continue;
+        }
+        for (const SeenAttempt& own : attempts) {
+            if (own.attempt.state == AttemptState::made) libraries.insert(own.attempt.libraries);
         }
         copy_result(item, results, folder / "cache");
         if (result->is_machine_refusing && !item.had_result) answer.refused.push_back(*result);
     }
     std::ranges::sort(answer.unmade, {}, &UnmadePiece::piece);
+    if (libraries.size() < 2) return;
+    std::string all;
+    for (const std::string& own : libraries) all += (all.empty() ? "" : "; ") + printable(own);
+    context.warn({"machines have other libraries, by which pictures in jobs may have other bytes: " + all});
 }
 
 // The project that all items are of; empty: of several, or of none.

@@ -13,6 +13,7 @@
 #include "base/files/file.h"
 #include "base/json_fields.h"
 #include "base/process.h"
+#include "segment/picture/png.h"
 
 namespace qchopper {
 
@@ -34,6 +35,7 @@ void fields(V& v, T& attempt) {
     v("because", attempt.because);
     v("host", attempt.host);
     v("process", attempt.process);
+    v("libraries", attempt.libraries);
     v("process_cpu_s", attempt.process_cpu_s, not_negative);
     v("process_bytes", attempt.process_bytes);
 }
@@ -50,6 +52,7 @@ AttemptRecord::AttemptRecord(std::string piece, const std::string& result, const
     attempt_.piece = std::move(piece);
     attempt_.host = host_name();
     attempt_.process = static_cast<std::uint64_t>(::getpid());
+    attempt_.libraries = png_libraries();
     fs::create_directories(attempts);
     file_ = attempts / (result + "-" + attempt_.host + "-" + std::to_string(attempt_.process) + "-" +
                         std::to_string(std::random_device{}()) + ".json");

@@ -28,6 +28,7 @@ struct WorkAttempt {
     std::string because;  // of `failed`
     std::string host;
     std::uint64_t process = 0;
+    std::string libraries;            // that bytes of results depend on: png_libraries()
     double process_cpu_s = 0;         // of the process and all that it has made
     std::uint64_t process_bytes = 0;  // its peak memory
 };

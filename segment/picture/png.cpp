@@ -3,6 +3,7 @@
 #include "segment/picture/png.h"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <cassert>
 #include <new>
@@ -24,6 +25,10 @@ Bytes to_png(const Pixels& pixels) {
     }
     bytes.resize(size);
     return bytes;
+}
+
+std::string png_libraries() {
+    return std::string("libpng ") + png_get_libpng_ver(nullptr) + ", zlib " + zlibVersion();
 }
 
 }  // namespace qchopper

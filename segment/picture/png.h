@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/files/file.h"
@@ -18,5 +19,8 @@ struct Pixels {
 
 // Preconditions: width and height are positive, and there are as many pixels as their product.
 Bytes to_png(const Pixels& pixels);
+
+// "libpng 1.6.39, zlib 1.2.13": files of other versions may have other bytes.
+std::string png_libraries();
 
 }  // namespace qchopper

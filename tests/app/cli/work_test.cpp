@@ -260,7 +260,14 @@ TEST_F(ShardedWork, ItemsOfOtherPiecesOrOfAnotherCellAreNotGathered) {
     EXPECT_NE(lacking.err.find("are not those of its pieces"), std::string::npos) << lacking.err;
     EXPECT_FALSE(fs::exists(project / "jobs" / "B.qjob"));
     program::put(item, bytes);
-    EXPECT_EQ(run({"gather", "p.qch"}).code, 0);
+    const fs::path attempt = fs::directory_iterator(project / "work" / "attempts")->path();
+    json record = json::parse(program::bytes_in(attempt));
+    EXPECT_EQ(record["libraries"].get<std::string>().substr(0, 7), "libpng ");
+    record["libraries"] = "libpng 1.2.3";
+    program::put(attempt, record.dump(2) + "\n");
+    const Ended differing = run({"gather", "p.qch"});
+    EXPECT_EQ(differing.code, 0);
+    EXPECT_NE(differing.err.find("machines have other libraries"), std::string::npos) << differing.err;
     EXPECT_EQ(run({"gather", "p.qch"}).code, 0) << "once more";
     ASSERT_EQ(run({"prepare", "p.qch", "--items"}).code, 0);
     EXPECT_FALSE(fs::exists(project / "jobs" / "B.qjob")) << "its jobs are to be gathered again";
