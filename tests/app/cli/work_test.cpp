@@ -100,6 +100,14 @@ TEST_F(ShardedWork, OfShardsIsWhatPrepareMakesToTheByte) {
     EXPECT_EQ(gathered.code, 0) << gathered.err;
     EXPECT_NE(gathered.err.find("kept from an earlier run, of 0 made"), std::string::npos) << gathered.err;
     EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
+    // More shards than pieces, the last one first, after all that is kept is gone.
+    for (const char* name : {"work/results", "cache"}) fs::remove_all(folder.path / "parts.qch" / name);
+    for (int shard = 6; shard >= 0; --shard) {
+        const std::string of_seven = std::to_string(shard) + "/7";
+        EXPECT_EQ(run({"work", "parts.qch", "--shard", of_seven, "--threads", "2"}).code, 0) << of_seven;
+    }
+    EXPECT_EQ(run({"gather", "parts.qch"}).code, 0);
+    EXPECT_EQ(program::difference(without_cache("whole.qch"), without_cache("parts.qch")), "");
 }
 
 // A result that is cut short, has another bit or is that of another piece is not used.
