@@ -197,8 +197,8 @@ WorkAnswer work_items(const std::vector<fs::path>& inputs, const WorkOptions& op
     std::vector<std::size_t> own = items_of(options.shard, efforts);
     std::erase_if(own, [&](std::size_t i) {
         if (options.has_retry) return false;
-        std::optional<UnmadePiece> piece = given_up(read_item(items[i], program_version), items[i]);
-        if (piece) answer.unmade.push_back(*std::move(piece));
+        const std::optional<UnmadePiece> piece = given_up(read_item(items[i], program_version), items[i]);
+        if (piece) answer.unmade.push_back(*piece);
         return piece.has_value();
     });
     std::ranges::sort(answer.unmade, {}, &UnmadePiece::piece);
