@@ -406,9 +406,9 @@ PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::u
                             std::optional<FollowedToolpath> followed) {
     std::map<std::uint16_t, double> feed_shares;
     for (int made = 1;; ++made) {
-        if (!followed) followed = follow_toolpath(piece, known, cell, context, fine, feed_shares);
-        PiecePrograms programs = programs_along(*std::move(followed), piece, known, piece_no, cell, caps, context);
-        followed.reset();
+        std::optional<FollowedToolpath> own = std::exchange(followed, std::nullopt);
+        if (!own) own = follow_toolpath(piece, known, cell, context, fine, feed_shares);
+        const PiecePrograms programs = programs_along(*std::move(own), piece, known, piece_no, cell, caps, context);
         const std::set<std::uint16_t> too_fast = too_fast_tools(programs.parts);
         if (made == most_feeds) return programs;
         std::string numbers;
