@@ -312,7 +312,8 @@ struct Parser {
         CLI::App* c =
             app.add_subcommand("gather", "check the programs that work has made, and write the jobs with them");
         add_project(c, gather.project);
-        c->add_flag("--make-missing", gather.make_missing, "make those that are missing or damaged here");
+        c->add_flag("--make-missing", gather.make_missing,
+                    "change here what the arm refuses, and make programs that are missing or damaged");
         add_common(c, common, [this] { common.command = gather; });
     }
 
