@@ -311,7 +311,8 @@ WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const 
     if (!because.empty()) throw InputError(InputFault::use, "no programs are made for " + cell.name + ": " + because);
     const std::vector<Piece>& pieces = segmentation().pieces;
     remove_items(folder_);
-    std::filesystem::create_directories(items_folder(folder_));
+    std::error_code error;  // that it cannot be made is told by the first file
+    std::filesystem::create_directories(items_folder(folder_), error);
     WrittenItems written;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         context.check_cancelled();

@@ -53,7 +53,8 @@ AttemptRecord::AttemptRecord(std::string piece, const std::string& result, const
     attempt_.host = host_name();
     attempt_.process = static_cast<std::uint64_t>(::getpid());
     attempt_.libraries = png_libraries();
-    fs::create_directories(attempts);
+    std::error_code error;  // that it cannot be made is told by the first file
+    fs::create_directories(attempts, error);
     file_ = attempts / (result + "-" + attempt_.host + "-" + std::to_string(attempt_.process) + "-" +
                         std::to_string(std::random_device{}()) + ".json");
     unfinished_.emplace(file_);

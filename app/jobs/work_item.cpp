@@ -251,6 +251,10 @@ std::vector<SurfaceState> states_from(CacheReader& in, std::size_t triangles, co
     return states;
 }
 
+bool is_of_cell(const Setup& setup, const Cell& cell) {
+    return setup.block.stock < cell.stock.size() && !setup.access.orientations.empty();
+}
+
 // Only what the manifest of the same job gives is exact.
 WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& program_version) {
     WorkItem item;
@@ -262,9 +266,8 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
     item.effort = in.get<double>();
     item.cell_file = in.get_all<std::uint8_t>();
     item.cell = parse_cell(std::string(item.cell_file.begin(), item.cell_file.end()), file.string());
-    const bool is_consistent =
-        read.program_version == program_version && item.cell.machine && read.setup.block.stock < item.cell.stock.size();
-    if (!is_consistent || read.setup.access.orientations.empty()) refuse(file, "is damaged");
+    const bool is_consistent = read.program_version == program_version && item.cell.machine;
+    if (!is_consistent || !is_of_cell(read.setup, item.cell)) refuse(file, "is damaged");
     item.job = job_from(read, mesh_from(in), item.cell);
     item.job.machine_reachability = reachability_from(in, file);
     const TriangleMesh& mesh = *item.job.piece.mesh;
@@ -274,7 +277,9 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
     placed.choice.setups = {item.job.setup};
     for (std::size_t others = in.count(); others > 0; --others) {
         const std::string other = in.text();
-        placed.choice.setups.push_back(from_manifest(other, file.string()).setup);
+        Setup setup = from_manifest(other, file.string()).setup;
+        if (!is_of_cell(setup, item.cell)) refuse(file, "is damaged");
+        placed.choice.setups.push_back(std::move(setup));
         if (manifest_with(item.job, placed.choice.setups.back()) != other) refuse(file, "is damaged");
     }
     placed.choice.states = states_from(in, mesh.triangles.size(), file);
@@ -356,7 +361,8 @@ std::optional<WorkedPiece> result_of(const WorkItem& item, const fs::path& resul
 }
 
 void copy_result(const WorkItem& item, const fs::path& from, const fs::path& to) {
-    fs::create_directories(to);
+    std::error_code error;  // told by the file
+    fs::create_directories(to, error);
     write_file(to / item.result, read_file(from / item.result));
 }
 

@@ -12,6 +12,8 @@
 
 #include "app/cli/exit_code.h"
 #include "app/cli/local_engine.h"
+#include "app/jobs/kept_programs.h"
+#include "app/jobs/work_item.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -227,6 +229,56 @@ TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
     EXPECT_EQ(run({"submit", "p.qch", "--print", "--retry"}).code, 0);
     EXPECT_NE(program::bytes_in(folder.path / "p.qch" / "work" / "slurm.sh").find(" --retry\n"), std::string::npos);
     EXPECT_EQ(run({"work", "p.qch", "--retry"}).code, 0);
+}
+
+TEST_F(ShardedWork, OfTwoProcessesOnOneItemAtOnceDoesNoHarm) {
+    prepare("p.qch", {"--items"});
+    const fs::path work = folder.path / "p.qch" / "work";
+    const std::string item = (work / "items" / "B.qitem").string();
+    program::Process first({"work", item, "--threads", "1"}, {folder.path});
+    program::Process second({"work", item, "--threads", "1"}, {folder.path});
+    EXPECT_EQ(first.wait().code, 0);
+    EXPECT_EQ(second.wait().code, 0);
+    std::size_t results = 0;
+    for (const auto& entry : fs::directory_iterator(work / "results")) {
+        EXPECT_EQ(entry.path().extension(), ".programs");
+        ++results;
+    }
+    EXPECT_EQ(results, 1U);
+}
+
+// Another process has made something else of the same item meanwhile: a fault of the program or of a machine.
+TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
+    prepare("p.qch", {"--items"});
+    const fs::path work = folder.path / "p.qch" / "work";
+    const fs::path file = work / "items" / "B.qitem";
+    std::istringstream said(run({"--version"}).out);  // "qchopper 0.1.0+0123456789ab"
+    std::string build;
+    said >> build >> build;
+    const WorkItem item = item_from(read_file(file), file, build);
+    program::Process process({"work", file.string(), "--threads", "1"}, {folder.path});
+    for (int k = 0; k < 2000 && attempts("p.qch") == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    fs::create_directories(work / "results");
+    keep_programs(work / "results" / item.result, {item.job, sha256(item.cell_file), item.fine},
+                  {{}, "another machine says so", item.job.caps});
+    const Ended ended = process.wait();
+    EXPECT_EQ(ended.code, exit_internal) << ended.err;
+    EXPECT_NE(ended.err.find("that were made twice differ"), std::string::npos) << ended.err;
+    EXPECT_TRUE(fs::exists(work / "results" / item.result));
+    EXPECT_TRUE(fs::exists((work / "results" / item.result).string() + ".second"));
+}
+
+TEST_F(ShardedWork, WhereNothingCanBeWrittenIsToldSo) {
+    prepare("p.qch", {"--items"});
+    for (const char* name : {"attempts", "results"}) {
+        const fs::path file = folder.path / "p.qch" / "work" / name;
+        fs::remove_all(file);
+        program::put(file, "a file");
+        const Ended ended = run({"work", "p.qch"});
+        EXPECT_EQ(ended.code, exit_create) << ended.err;
+        EXPECT_NE(ended.err.find("cannot be created"), std::string::npos) << ended.err;
+        fs::remove(file);
+    }
 }
 
 TEST(LocalEngine, HasAsManyProcessesAsMemoryHolds) {
