@@ -55,13 +55,18 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
         result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
         return true;
     };
+    // Whether what becomes of every piece is known at the end. Changes are those of one run that knows all at once.
     const auto change_refused = [&](MissingToolpaths missing) {
-        while (is_changed(project.follow_toolpaths(missing, options.program_version, context))) {
+        while (true) {
+            const PreparedProject asked = project.follow_toolpaths(missing, options.program_version, context);
+            if (asked.pieces.empty()) return false;
+            if (!is_changed(asked)) return true;
         }
     };
     if (options.last == LoopStep::setups) {
-        change_refused(MissingToolpaths::left_out);
+        const bool is_settled = change_refused(MissingToolpaths::not_made);
         result.prepared = project.set_up(result.end, observer, context);
+        result.prepared->are_refusals_settled = is_settled;
     }
     if (options.last == LoopStep::jobs) {
         const auto write = [&] {

@@ -304,7 +304,7 @@ PreparedProject OpenProject::follow_toolpaths(MissingToolpaths missing, const st
     return prepared;
 }
 
-WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const std::string& program_version,
+WrittenItems OpenProject::write_items(const PreparedProject& prepared, const std::string& program_version,
                                       const Context& context) {
     const Cell& cell = setups()->cell();
     const std::string because = no_programs_for(cell);
@@ -317,12 +317,13 @@ WrittenItems OpenProject::write_items(std::span<const PieceJoint> joints, const 
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         context.check_cancelled();
         context.progress("items written", i, pieces.size());
-        WorkItem item = item_of(folder_, project_, segmentation(), i, *setups(), joints, program_version);
-        item.had_result = item.has_program() && result_of(item, folder_ / "cache");
+        WorkItem item =
+            item_of(folder_, project_, segmentation(), i, *setups(), prepared.joints.joints, program_version);
+        item.is_settled = prepared.are_refusals_settled;
         write_file(items_folder(folder_) / (pieces[i].name + item_ending), to_bytes(item));
         if (!item.has_program()) continue;
         ++written.count;
-        if (item.had_result) {
+        if (result_of(item, folder_ / "cache")) {
             copy_result(item, folder_ / "cache", folder_ / "work" / "results");
             ++written.kept;
             continue;

@@ -42,6 +42,8 @@ struct PreparedProject {
     std::vector<PieceReport> pieces;  // in the order of the project's
     ProjectJoints joints = {};        // of them
     WrittenItems items = {};          // for other processes to work on (work_project.h)
+    // Whether the programs of all pieces are known, and nothing more is changed because the arm refuses some of them.
+    bool are_refusals_settled = false;
     bool all_fit() const;
     // Whether jobs of this cell hold programs, and programs were asked for.
     bool has_programs() const;
@@ -158,9 +160,9 @@ class OpenProject {
     PreparedProject follow_toolpaths(MissingToolpaths missing, const std::string& program_version,
                                      const Context& context);
     // Writes work/items/<piece>.qitem of every piece (work_project.h), in place of those that are there, and copies
-    // programs that are kept into work/results. `joints` are those of all pieces. Precondition: set_up(). Throws
-    // InputError (use) for a cell whose jobs get no programs, what write_file throws, Cancelled.
-    WrittenItems write_items(std::span<const PieceJoint> joints, const std::string& program_version,
+    // programs that are kept into work/results. Precondition: `prepared` is that of set_up(). Throws InputError (use)
+    // for a cell whose jobs get no programs, what write_file throws, Cancelled.
+    WrittenItems write_items(const PreparedProject& prepared, const std::string& program_version,
                              const Context& context);
     // Takes pieces and setups that another run has made, so that write_outputs() needs no scan and chooses no setup.
     // Nothing but that may follow. Preconditions: they are those of the project, which has a cell and in which nothing

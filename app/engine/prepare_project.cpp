@@ -47,7 +47,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         context.warn({"no items are written before the cutting has ended; go on with: qchopper prepare " +
                       shell_word(project.folder()) + " --items"});
     } else if (options.has_items) {
-        prepared.items = project.write_items(prepared.joints.joints, options.program_version, context);
+        prepared.items = project.write_items(prepared, options.program_version, context);
     }
     return prepared;
 }

@@ -129,7 +129,7 @@ void take_results(const fs::path& folder, const std::vector<WorkItem>& items, co
             if (own.attempt.state == AttemptState::made) libraries.insert(own.attempt.libraries);
         }
         copy_result(item, results, folder / "cache");
-        if (result->is_machine_refusing && !item.had_result) answer.refused.push_back(*result);
+        if (result->is_machine_refusing && !item.is_settled) answer.refused.push_back(*result);
     }
     std::ranges::sort(answer.unmade, {}, &UnmadePiece::piece);
     if (libraries.size() < 2) return;

@@ -349,26 +349,27 @@ void in_order_of(const JobPlan& plan, ProgramSteps steps, StageTimer& stage, con
     stage.divide(times);
 }
 
-// Says in the report why there will be no program, if that is so.
-void follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, MissingToolpaths missing,
+// Says in the report why there will be no program, if that is so. False if it is not known, and is not to be found out.
+bool follow(const JobOrders& orders, std::size_t index, const PlacedSetup& piece_setup, MissingToolpaths missing,
             const Context& context, PieceReport& report) {
-    if (report.is_only_sawn || !piece_setup.fits()) return;
+    if (report.is_only_sawn || !piece_setup.fits()) return true;
     const JobInput input = job_input(orders, index, piece_setup);
     const ProgramSource source = source_of(orders, input);
     if (const std::optional<PiecePrograms> programs = kept_programs(kept_file(orders, input), source)) {
         report.no_program_because = programs->none_because;
         report.is_machine_refusing = programs->is_machine_refusing;
-        return;
+        return true;
     }
     const fs::path file = toolpath_file(orders.folder / "cache", source);
     std::optional<FollowedToolpath> followed = kept_toolpath(file);
-    if (!followed && missing == MissingToolpaths::left_out) return;
+    if (!followed && missing == MissingToolpaths::not_made) return false;
     if (!followed) {
         followed = follow_toolpath(input.piece, piece_setup, orders.cell, context, source.fine);
         keep_toolpath(file, *followed);
     }
     report.no_program_because = followed->none_because;
     report.is_machine_refusing = followed->is_machine_refusing;
+    return true;
 }
 
 void tell_kept(const std::vector<PieceReport>& reports, const Context& context) {
@@ -424,11 +425,15 @@ std::vector<PieceReport> follow_toolpaths(const fs::path& folder, const Project&
         reports.push_back(report_of(folder, project, segmentation.pieces[i], *piece_setups[i], setups.cell()));
     }
     JobPlan plan = plan_jobs(orders, piece_setups);
-    if (missing == MissingToolpaths::left_out) plan.programs.clear();
+    if (missing == MissingToolpaths::not_made) plan.programs.clear();
+    std::atomic<bool> is_known = true;
     in_order_of(
         plan, ProgramSteps::toolpath, stage, context,
-        [&](std::size_t i, const Context& own) { follow(orders, i, *piece_setups[i], missing, own, reports[i]); },
+        [&](std::size_t i, const Context& own) {
+            if (!follow(orders, i, *piece_setups[i], missing, own, reports[i])) is_known = false;
+        },
         [](std::size_t) {});
+    if (!is_known) reports.clear();
     return reports;
 }
 

@@ -55,12 +55,12 @@ WorkItem item_of(const std::filesystem::path& folder, const Project& project, co
 PieceReport report_without_job(const std::filesystem::path& folder, const Project& project, const Piece& piece,
                                Setups& setups);
 
-enum class MissingToolpaths { made, left_out };
+enum class MissingToolpaths { made, not_made };
 
 // One report per piece, in which no_program_because and is_machine_refusing say what will become of its program as far
 // as the arm was asked, by programs and toolpaths in the project's cache; none in a project whose jobs get no programs.
-// Toolpaths that are missing are made and kept there (kept_toolpaths.h), where write_jobs() takes them, or left out.
-// Throws Cancelled; what is made stays.
+// Toolpaths that are missing are made and kept there (kept_toolpaths.h), where write_jobs() takes them; or, if they are
+// not to be made, there is no report of any piece. Throws Cancelled; what is made stays.
 std::vector<PieceReport> follow_toolpaths(const std::filesystem::path& folder, const Project& project,
                                           const Segmentation& segmentation, Setups& setups,
                                           std::span<const PieceJoint> joints, const std::string& program_version,

@@ -262,7 +262,7 @@ WorkItem content_from(CacheReader& in, const fs::path& file, const std::string& 
     const ReadJob read = from_manifest(manifest, file.string());
     item.fine = in.one_of(FineTools::none);
     item.result = in.text();
-    item.had_result = in.get<std::uint8_t>() != 0;
+    item.is_settled = in.get<std::uint8_t>() != 0;
     item.effort = in.get<double>();
     item.cell_file = in.get_all<std::uint8_t>();
     item.cell = parse_cell(std::string(item.cell_file.begin(), item.cell_file.end()), file.string());
@@ -325,7 +325,7 @@ Bytes to_bytes(const WorkItem& item) {
     out.put(manifest_of(item.job));
     out.put(static_cast<std::uint8_t>(item.fine));
     out.put(item.result);
-    out.put(static_cast<std::uint8_t>(item.had_result));
+    out.put(static_cast<std::uint8_t>(item.is_settled));
     out.put(item.effort);
     out.put_all(item.cell_file);
     put(out, *item.job.piece.mesh);

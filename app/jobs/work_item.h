@@ -41,9 +41,9 @@ struct WorkItem {
     // Name of the file that its programs are kept in (kept_programs.h); empty: it gets none, because it does not fit
     // the cell or the saw alone makes it.
     std::string result;
-    // Whether there was a result when the item was written: pieces that the arm refused by then have been changed if
-    // anything helps.
-    bool had_result = false;
+    // Whether there was a result of every piece when the items were written: those that the arm refused have been
+    // changed if anything helps.
+    bool is_settled = false;
     double effort = 0;  // program_effort(): a machine makes so and so much of it per second; 0 without a program
     bool has_program() const { return !result.empty(); }
 };
