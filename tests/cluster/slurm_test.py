@@ -3,8 +3,8 @@
     slurm_test.py PROGRAM CELL
 
 A worker is killed, a task is requeued, one runs out of time, one out of memory, one is cancelled, a node and the
-controller are restarted; the jobs are those of one prepare, to the byte. Exit code 77 where Slurm or munge is not
-installed; skipped where they do not start.
+controller are restarted, one fails under GNU parallel; the jobs are those of one prepare, to the byte. Exit code 77 where
+Slurm or munge is not installed; skipped where they do not start.
 """
 
 import hashlib
@@ -242,6 +242,23 @@ class Slurm(unittest.TestCase):
         self.wait_for(jobs)
         self.program("prepare", "v.ply", "--units", "mm", "--scale", "0.5", "--cell", CELL, "-o", "large.qch")
         self.assert_same_jobs("restarted.qch", "large.qch")
+
+    @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is not installed")
+    def test_what_failed_under_gnu_parallel_is_resumed(self):
+        self.prepared("parallel.qch")
+        project = str(self.folder / "parallel.qch")
+        log = self.folder / "parallel.log"
+        words = ["parallel", "--will-cite", "--jobs", "2", "--joblog", str(log)]
+        work = [str(PROGRAM), "work", project, "--threads", "1", "--shard", "{}/2", ":::", "0", "1"]
+        first = subprocess.Popen([*words, *work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until("two workers", lambda: len(self.workers("parallel.qch")) == 2, 60)
+        os.kill(self.workers("parallel.qch")[0], signal.SIGKILL)
+        self.assertEqual(first.wait(150), 1, "one failed")
+        self.assertEqual(len(self.results("parallel.qch")), 1)
+        again = subprocess.run([*words, "--resume-failed", *work], capture_output=True, check=False, timeout=150)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.program("gather", "parallel.qch")
+        self.assert_same_jobs("parallel.qch")
 
     def failed(self, project):
         """The lines of failed.jsonl by their pieces."""
