@@ -408,7 +408,7 @@ PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::u
     for (int made = 1;; ++made) {
         std::optional<FollowedToolpath> own = std::exchange(followed, std::nullopt);
         if (!own) own = follow_toolpath(piece, known, cell, context, fine, feed_shares);
-        const PiecePrograms programs = programs_along(*std::move(own), piece, known, piece_no, cell, caps, context);
+        PiecePrograms programs = programs_along(*std::move(own), piece, known, piece_no, cell, caps, context);
         const std::set<std::uint16_t> too_fast = too_fast_tools(programs.parts);
         if (made == most_feeds) return programs;
         std::string numbers;
