@@ -61,9 +61,10 @@ int show(const GatherAnswer& answer, const std::filesystem::path& project, Termi
                              "; work/failed.jsonl says what is known of them",
                          "make them: qchopper work " + name + ", or gather with --make-missing");
     }
-    terminal.message("Programs that are proven are kept. Next: qchopper prepare " + name +
-                     " --items, which changes these pieces, then qchopper submit " + name + " or qchopper work " +
-                     name + "; or qchopper gather " + name + " --make-missing, which does it all here");
+    const std::string next =
+        "Next: qchopper prepare " + name + " --items, which changes these pieces, then qchopper submit " + name +
+        " or qchopper work " + name + "; or qchopper gather " + name + " --make-missing, which does it all here";
+    terminal.show({"Programs that are proven are kept.", next}, document(work_done({project}, version())));
     return exit_demand_broken;
 }
 

@@ -52,7 +52,7 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
         if (!refuses_long_tools(project, prepared, context)) {
             return take_fewer_orientations(project, prepared, context);
         }
-        result.end = project.search(project.checks(), decided_in(LoopStep::cut_again), context, options.time_limit);
+        result.end = project.cut_refused(decided_in(LoopStep::cut_again), context, options.time_limit);
         return true;
     };
     // Whether what becomes of every piece is known at the end. Changes are those of one run that knows all at once.

@@ -55,6 +55,16 @@ void choose_setups(std::span<const Piece> pieces, Setups& setups, const LoopObse
 
 SearchEnd OpenProject::search(const PieceChecks& checks, const OnDecision& on_decision, const Context& context,
                               const std::optional<TimeLimit>& time_limit) {
+    return search(checks, OldReview::dropped, on_decision, context, time_limit);
+}
+
+SearchEnd OpenProject::cut_refused(const OnDecision& on_decision, const Context& context,
+                                   const std::optional<TimeLimit>& time_limit) {
+    return search(checks(), OldReview::kept, on_decision, context, time_limit);
+}
+
+SearchEnd OpenProject::search(const PieceChecks& checks, OldReview review, const OnDecision& on_decision,
+                              const Context& context, const std::optional<TimeLimit>& time_limit) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
     const StageTimer stage(context, "search");
@@ -63,11 +73,11 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const OnDecision& on_de
     if (project_.settings.objectives.needs_structure()) set_stress(progress.root.pieces, stress());
     release_scan();
     const auto keep = [&](const Segmentation& best) {
-        adopt(best, progress.saved());
+        adopt(best, progress.saved(), review);
         if (on_decision) on_decision(best);
     };
     SearchEnd end = qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
-    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
+    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt, review);
     if (end.is_out_of_time()) return end;
     record_end(end);
     write_current_pieces();

@@ -203,9 +203,9 @@ void OpenProject::adopt(const Segmentation& segmentation) {
     adopt(segmentation, std::nullopt);
 }
 
-void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
+void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam, OldReview review) {
     take_over(segmentation, std::move(beam));
-    project_.review.reset();
+    if (review == OldReview::dropped) project_.review.reset();
     save();
 }
 

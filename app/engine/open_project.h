@@ -153,6 +153,10 @@ class OpenProject {
     // whether the rules hold. Ends the review, unless time runs out. Returns the end of that cutting, if there was any.
     std::optional<SearchEnd> cut_again(const OnDecision& on_decision, const Context& context,
                                        const std::optional<TimeLimit>& time_limit);
+    // search() for pieces that the arm refuses (Setups::refuse_with_long_tools()), after setups have judged the
+    // cuts: what they said stays, also if the program is killed, and no cut is judged again.
+    SearchEnd cut_refused(const OnDecision& on_decision, const Context& context,
+                          const std::optional<TimeLimit>& time_limit);
     // The setups of all pieces, without jobs; those of an earlier run are removed. `end` as in write_outputs(). Throws
     // what check_cell throws.
     PreparedProject set_up(const std::optional<SearchEnd>& end, const LoopObserver& observer, const Context& context);
@@ -184,7 +188,10 @@ class OpenProject {
     void adopt(const Segmentation& segmentation);
 
  private:
-    void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    enum class OldReview { dropped, kept };
+    void adopt(const Segmentation& segmentation, std::optional<BeamState> beam, OldReview review = OldReview::dropped);
+    SearchEnd search(const PieceChecks& checks, OldReview review, const OnDecision& on_decision, const Context& context,
+                     const std::optional<TimeLimit>& time_limit);
     void take_over(const Segmentation& segmentation, std::optional<BeamState> beam);
     // The pieces are made again, with samples or without, if that follows from them.
     void set_weights(const Weights& weights);

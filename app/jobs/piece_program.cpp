@@ -1,10 +1,10 @@
 // One step after the other; toolpath and replay take most of the time, and whether the arm follows a toolpath is asked
-// without the holes, which come after it. A setup is placed by poses that are known before
-// there is a toolpath (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and
-// by those of the run that was refused, and so on a few times; where that has no other place, by those of all runs. The
-// toolpath stays. With the refused runs alone one piece of a bunny at 1.5 m got its program and another one did not;
-// with all runs at once it was the other way round. The plan knows foam in cells and may miss a thin wall of it: where
-// the proof finds tools too fast for that, and nothing else, the whole is made again with less feed of these.
+// without the holes, which come after it. A setup is placed by poses that are known before there is a toolpath
+// (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and by those of the run
+// that was refused, and so on a few times; where that has no other place, once by those of all runs. The toolpath
+// stays. With the refused runs alone one piece of a bunny at 1.5 m got its program and another one did not; with all
+// runs at once it was the other way round. The plan knows foam in cells and may miss a thin wall of it: where the proof
+// finds tools too fast for that, and nothing else, the whole is made again with less feed of these.
 
 #include "app/jobs/piece_program.h"
 
@@ -37,6 +37,7 @@ namespace {
 constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
 constexpr double pose_distance = 20;   // mm, of those of a toolpath by which its block is placed
 constexpr std::size_t max_places = 6;  // of the block, the one that its setup has included
+constexpr double drilled_cells = 4;    // of the toolpath's maps in the side of one by which holes are drilled
 constexpr double slower = 0.6;         // feed of a tool that removed foam too fast, of the one before
 constexpr int most_feeds = 4;          // that are tried, the largest included
 
@@ -46,8 +47,6 @@ std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     for (std::size_t d = 0; d < angles; ++d) frames.push_back(setup_in_cell(cell, setup.spoil, setup.placement, d));
     return frames;
 }
-
-constexpr double drilled_cells = 4;  // cells of the toolpath's maps in the side of one by which holes are drilled
 
 // A toolpath and the drilling that follows it.
 struct MadePath {

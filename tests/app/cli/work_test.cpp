@@ -57,6 +57,12 @@ struct ShardedWork : ::testing::Test {
         process.signal(signal);
         return process.wait();
     }
+    std::string build() const {
+        std::istringstream said(run({"--version"}).out);  // "qchopper 0.1.0+0123456789ab"
+        std::string word;
+        said >> word >> word;
+        return word;
+    }
     void kill_at_work(const std::string& project) const {
         const auto before = attempts(project);
         ASSERT_EQ(ended_at_work(project, SIGKILL).killed_by, SIGKILL);
@@ -252,10 +258,7 @@ TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
     prepare("p.qch", {"--items"});
     const fs::path work = folder.path / "p.qch" / "work";
     const fs::path file = work / "items" / "B.qitem";
-    std::istringstream said(run({"--version"}).out);  // "qchopper 0.1.0+0123456789ab"
-    std::string build;
-    said >> build >> build;
-    const WorkItem item = item_from(read_file(file), file, build);
+    const WorkItem item = item_from(read_file(file), file, build());
     program::Process process({"work", file.string(), "--threads", "1"}, {folder.path});
     for (int k = 0; k < 2000 && attempts("p.qch") == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     fs::create_directories(work / "results");
@@ -266,6 +269,27 @@ TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
     EXPECT_NE(ended.err.find("that were made twice differ"), std::string::npos) << ended.err;
     EXPECT_TRUE(fs::exists(work / "results" / item.result));
     EXPECT_TRUE(fs::exists((work / "results" / item.result).string() + ".second"));
+}
+
+TEST_F(ShardedWork, WhatTheArmRefusesIsNamedByGatherWithTheNextStep) {
+    prepare("p.qch", {"--items"});
+    const fs::path work = folder.path / "p.qch" / "work";
+    const fs::path file = work / "items" / "B.qitem";
+    const WorkItem item = item_from(read_file(file), file, build());
+    PiecePrograms refused{{}, "no arm posture reaches it", item.job.caps};
+    refused.is_machine_refusing = true;
+    fs::create_directories(work / "results");
+    keep_programs(work / "results" / item.result, {item.job, sha256(item.cell_file), item.fine}, refused);
+    ASSERT_EQ(run({"work", "p.qch"}).code, 0);
+    const Ended gathered = run({"gather", "p.qch"});
+    EXPECT_EQ(gathered.code, exit_demand_broken);
+    EXPECT_NE(gathered.err.find("piece B: no arm posture reaches it; it has to be cut again"), std::string::npos);
+    EXPECT_NE(gathered.out.find("Next: qchopper prepare p.qch --items"), std::string::npos) << gathered.out;
+    EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "jobs" / "B.qjob"));
+    const json answer = json::parse(run({"gather", "p.qch", "--json"}).out);
+    EXPECT_EQ(answer["schema"], "qchopper-work-1");
+    EXPECT_EQ(answer["unmade"].size(), 0U);
+    EXPECT_EQ(answer["pieces"].size(), answer["piece_count"]);
 }
 
 TEST_F(ShardedWork, WhereNothingCanBeWrittenIsToldSo) {

@@ -138,6 +138,30 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
     EXPECT_EQ(bytes(), whole);
 }
 
+// What the arm refuses is cut after setups have judged all: a program that goes on there must not judge again, because
+// one that was never ended does not either.
+TEST_F(CutBySetups, ASearchForRefusedPiecesIsNoReasonToJudgeAgain) {
+    OpenProject project = open();
+    judge_cuts(project);
+    ASSERT_TRUE(project.project().review && project.project().review->is_done);
+    const auto one_more_cut = [&] {
+        StopRules stop = project.project().settings.stop;
+        stop.min_cuts = project.project().cuts.size() + 1;
+        project.set_search(stop, 1);
+    };
+    std::size_t cuts = project.project().cuts.size();
+    one_more_cut();
+    const auto is_kept = [&](const Segmentation&) { EXPECT_TRUE(load_project(folder).review) << "after a kill too"; };
+    project.cut_refused(is_kept, {}, std::nullopt);
+    EXPECT_GT(project.project().cuts.size(), cuts);
+    EXPECT_FALSE(open().begin_review());
+    cuts = project.project().cuts.size();
+    one_more_cut();
+    project.search(project.checks(), {}, {}, std::nullopt);
+    EXPECT_GT(project.project().cuts.size(), cuts);
+    EXPECT_TRUE(open().begin_review()) << "other cuts are judged";
+}
+
 // A limit that has passed before this cutting begins allows no round; one that passes in it lets the round be finished.
 TEST_F(CutBySetups, WhatRunsOutOfTimeGoesOnToTheSameBytes) {
     const fs::path copy = folder.string() + ".copy";
