@@ -27,6 +27,7 @@ class RequestHandler {
         : project_(project), request_(request), checks_(project.checks()), context_(context) {}
 
     SegmentAnswer answer() {
+        const Project before = project_.project();
         if (request_.weights) change_weights();
         if (request_.discard) discard_pieces(*request_.discard);
         if (request_.undo || request_.redo) undo_or_redo();
@@ -37,6 +38,7 @@ class RequestHandler {
         if (request_.preview) preview();
         if (request_.plan) write_plan();
         if (request_.search) search(*request_.search);
+        tell_of_jobs(before);
         return std::move(answer_);
     }
 
@@ -44,6 +46,18 @@ class RequestHandler {
     void refuse(const std::string& why) {
         answer_.notes.push_back(why);
         answer_.is_demand_met = false;
+    }
+
+    // What has become of jobs that were written before, and whether jobs of now came back.
+    void tell_of_jobs(const Project& before) {
+        const Project& now = project_.project();
+        if (before.cuts == now.cuts && before.discards == now.discards) return;
+        if (before.stage == Stage::done && are_outputs_kept(project_.folder(), before)) {
+            const char* decision = request_.undo ? "redo" : "undo";
+            answer_.notes.push_back("Kept aside: " + counted(before.jobs.size(), "job") + " with " +
+                                    "pictures and sheets; " + decision + " brings them back.");
+        }
+        if (now.stage == Stage::done) answer_.notes.push_back(counted(now.jobs.size(), "job") + " came back.");
     }
 
     void change_weights() {

@@ -300,6 +300,7 @@ std::optional<Decision> OpenProject::change_committed(const Decision* changed, s
         remove_outputs(folder_, project_);
     }
     commit_first(committed);
+    if (project_.stage == Stage::cutting) bring_back_outputs(folder_, project_);
     return *changed;  // the list of decisions stays as it is
 }
 

@@ -119,7 +119,8 @@ class OpenProject {
     bool decide_discard(const std::vector<std::string>& pieces);  // none, one is not there, or no other is left
     bool decide_reset();                                          // no cut and no discarded piece is in force
     bool decide_setup(const SetupOrder& order);                   // it is in force already, or there is no such piece
-    // The decision that was taken back or put in force again; nothing if there is none.
+    // The decision that was taken back or put in force again; nothing if there is none. Jobs and other outputs that a
+    // decision has put out of force come back with the decisions that they follow from (bring_back_outputs()).
     std::optional<Decision> undo();
     std::optional<Decision> redo();
 

@@ -1,8 +1,9 @@
 // Writes pieces and pictures of a segmentation into the project folder, and removes all outputs (jobs: piece_jobs.h).
 //
 // They are never stale: they are removed before a decision changes and written when the cutting is over; the stage in
-// project.json states which exist (project.h, tests/app/engine/open_project_test.cpp). Lengths in mm. All throw what
-// write_file throws.
+// project.json states which exist (project.h, tests/app/engine/open_project_test.cpp). Those of a finished project are
+// kept aside, in earlier/, so that undo and redo bring them back (tests/app/engine/outputs_test.cpp). Lengths in mm.
+// All throw what write_file throws.
 
 #pragma once
 
@@ -33,7 +34,16 @@ void remove_jobs(const std::filesystem::path& folder, Project& project);
 void remove_items(const std::filesystem::path& folder);
 
 // Saves the project with Stage::cutting, if it has another stage or jobs, then removes pieces, jobs, pictures and
-// items. A program that is killed at any moment leaves a consistent project (tests/app/engine/killed_test.cpp).
+// items; those of Stage::done but for the items are moved aside, of the newest three such states. A program that is
+// killed at any moment leaves a consistent project (tests/app/engine/killed_test.cpp).
 void remove_outputs(const std::filesystem::path& folder, Project& project);
+
+// Whether remove_outputs has moved aside those of a project that was finished.
+bool are_outputs_kept(const std::filesystem::path& folder, const Project& as_it_was);
+
+// Moves outputs back that remove_outputs has moved aside, if there are some of the decisions in force and of these
+// settings, and saves the project as it was then, with its present history. Whether there were any. Precondition: the
+// project on disk is `project`, and has Stage::cutting.
+bool bring_back_outputs(const std::filesystem::path& folder, Project& project);
 
 }  // namespace qchopper

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* sheets_file = "sheets.html";
-constexpr const char* saw_list_page = "saw-list.html";
-constexpr const char* saw_list_document = "saw-list.json";
+constexpr const char* sheets_file = sheet_files[0];
+constexpr const char* saw_list_page = sheet_files[1];
+constexpr const char* saw_list_document = sheet_files[2];
 
 std::string state_of(const ReadJob& job, const fs::path& file) {
     if (!job.program) return "no program";
@@ -95,8 +95,7 @@ void write_sheets(const fs::path& folder, const Project& project, const Segmenta
 
 void remove_sheets(const fs::path& folder) {
     std::error_code error;
-    fs::remove(folder / sheets_file, error);
-    remove_saw_list(folder);
+    for (const char* name : sheet_files) fs::remove(folder / name, error);
 }
 
 }  // namespace qchopper

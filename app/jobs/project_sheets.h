@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 
@@ -21,6 +22,9 @@ namespace qchopper {
 // alone makes them. Throws what read_job, parse_job, read_verdict, write_file and Setups::placed throw.
 void write_sheets(const std::filesystem::path& folder, const Project& project, const Segmentation& segmentation,
                   Setups& setups, std::span<const PieceJoint> joints, const Context& context);
+
+// The files that write_sheets writes, each where there is something to write.
+inline constexpr std::array sheet_files{"sheets.html", "saw-list.html", "saw-list.json"};
 
 void remove_sheets(const std::filesystem::path& folder);
 

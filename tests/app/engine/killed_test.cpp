@@ -78,6 +78,24 @@ void decide_something(OpenProject& project, std::mt19937& random) {
     }
 }
 
+// What the only job of a finished project holds here.
+std::string job_text(const Project& project) {
+    std::string text;
+    for (const Cut& cut : project.cuts) text += cut.piece + std::to_string(cut.chosen.plane.offset) + " ";
+    return text;
+}
+
+// As prepare does, with a job that says of which cuts it is.
+void finish(OpenProject& open) {
+    write_pieces(open.folder(), open.segmentation(), FragmentChoice::keep);
+    Project project = open.project();
+    fs::create_directories(open.folder() / "jobs");
+    write_file(open.folder() / "jobs" / "A.qjob", job_text(project));
+    project.jobs = {{"A", Sha256{{0xdd}}, std::string(32, 'a')}};
+    project.stage = Stage::done;
+    save_project(open.folder(), project);
+}
+
 // The program that is killed: decides for ever. Started by the test below, never alone.
 TEST(Killed, DISABLED_Victim) {
     const char* folder = std::getenv(folder_variable);
@@ -85,8 +103,11 @@ TEST(Killed, DISABLED_Victim) {
     const ProjectLock lock(folder);
     clear_leftovers(folder);
     std::mt19937 random(static_cast<unsigned>(load_project(folder).history.decisions.size() + 17U));
-    OpenProject project(folder, load_project(folder), scan);
-    while (true) decide_something(project, random);
+    while (true) {
+        OpenProject project(folder, load_project(folder), scan);
+        for (int i = 0; i < 4; ++i) decide_something(project, random);
+        finish(project);
+    }
 }
 
 pid_t start_victim(const fs::path& folder) {
@@ -127,7 +148,12 @@ void expect_right(const fs::path& folder) {
     record(fresh, segmentation);
     EXPECT_EQ(fresh.pieces, project.pieces);
     EXPECT_EQ(fresh.history, project.history);
+    EXPECT_EQ(project.jobs.empty(), project.stage != Stage::done);
     if (project.stage == Stage::cutting || !fs::exists(folder / "pieces")) return;
+    if (project.stage == Stage::done) {
+        const Bytes job = read_file(folder / "jobs" / "A.qjob");
+        EXPECT_EQ(std::string(job.begin(), job.end()), job_text(project));
+    }
     std::set<std::string> names;
     for (const Piece& piece : segmentation.pieces) {
         names.insert(piece.name + ".ply");
