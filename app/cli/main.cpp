@@ -4,10 +4,12 @@
 // (docs/user/troubleshooting.md, tests/app/cli/bad_input_test.cpp).
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <new>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/commands.h"
@@ -71,9 +73,14 @@ bool may_end_anywhere(const Arguments& arguments) {
 // Throws nothing.
 int run_program(int argc, const char* const* argv) {
     // Found before the options are parsed, so that an error in them is reported as a document too.
-    const bool is_json = std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
+    const std::vector<std::string_view> words(argv, argv + argc);
+    constexpr std::array progress_json{std::string_view("--progress"), std::string_view("json")};
+    const bool is_json = std::ranges::find(words, "--json") != words.end();
     catch_signals();
     Terminal terminal(is_json);
+    if (std::ranges::find(words, "--progress=json") != words.end() ||
+        !std::ranges::search(words, progress_json).empty())
+        terminal.set_progress_json();
     try {
         const std::optional<Arguments> arguments = parse_arguments(argc, argv);
         if (!arguments) return exit_done;  // help or version was asked for

@@ -32,6 +32,7 @@ namespace {
 constexpr std::chrono::milliseconds time_to_answer{80};  // for the work itself
 constexpr std::chrono::milliseconds draw_every{100};     // at most
 constexpr std::chrono::milliseconds draw_again{500};     // where no count has changed
+constexpr std::chrono::milliseconds write_again{2000};   // the same of --progress json
 
 std::atomic<bool> cancelled{false};
 std::atomic<int> signal_number{0};
@@ -113,12 +114,17 @@ bool is_plain_terminal() {
 
 }  // namespace
 
-std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
+std::optional<double> time_left_s(std::size_t done, std::size_t total, double elapsed_s) {
     constexpr double max_s = 99 * 3600;
     if (elapsed_s < 1 || done == 0 || done >= total) return {};
     const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
     if (left_s > max_s) return {};
-    return ", about " + duration(static_cast<std::uint32_t>(std::ceil(left_s))) + " left";
+    return left_s;
+}
+
+std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
+    const std::optional<double> left_s = time_left_s(done, total, elapsed_s);
+    return left_s ? ", about " + duration(static_cast<std::uint32_t>(std::ceil(*left_s))) + " left" : std::string();
 }
 
 std::string progress_text(const Progress& progress) {
@@ -195,7 +201,8 @@ void Terminal::watch(const std::stop_token& stop) {
         }
         const std::lock_guard lock(changing_);
         const auto now = Clock::now();
-        if (shows_progress_ && !last_.what.empty() && now - drawn_ >= draw_again) draw_line(now);
+        const auto again = writes_lines_ ? write_again : draw_again;
+        if (shows_progress_ && !last_.what.empty() && now - drawn_ >= again) draw_line(now);
     }
 }
 
@@ -209,6 +216,13 @@ void Terminal::set_quiet() {
     const std::lock_guard lock(changing_);
     quiet_ = true;
     shows_progress_ = false;
+}
+
+void Terminal::set_progress_json() {
+    const std::lock_guard lock(changing_);
+    writes_lines_ = true;
+    shows_progress_ = !quiet_;
+    wake_up.post();  // from now on the watch is kept at intervals
 }
 
 void Terminal::set_timings() {
@@ -238,11 +252,11 @@ void Terminal::clear_line() {
 }
 
 void Terminal::message(const std::string& line) {
-    if (!quiet_) error(line);
+    if (!quiet_) say(NoticeKind::message, line);
 }
 
 void Terminal::warn(const std::string& line) {
-    error("warning: " + line);
+    say(NoticeKind::warning, line);
 }
 
 void Terminal::warn(const std::vector<std::string>& lines) {
@@ -250,9 +264,17 @@ void Terminal::warn(const std::vector<std::string>& lines) {
 }
 
 void Terminal::error(const std::string& line) {
+    say(NoticeKind::error, line);
+}
+
+void Terminal::say(NoticeKind kind, const std::string& line) {
     const std::lock_guard lock(changing_);
     clear_line();
-    std::cerr << printable_lines(line) << std::endl;
+    if (writes_lines_) {
+        std::cerr << text_of(notice_document(kind, line)) << std::endl;
+    } else {
+        std::cerr << (kind == NoticeKind::warning ? "warning: " : "") << printable_lines(line) << std::endl;
+    }
 }
 
 void Terminal::show(const std::vector<std::string>& lines, const Document& document) {
@@ -267,7 +289,7 @@ void Terminal::show(const std::vector<std::string>& lines, const Document& docum
         for (const std::string& line : lines) std::cout << printable_lines(line) << std::endl;
     }
     if (!times) return;
-    for (const std::string& line : table(*times)) error(line);
+    for (const std::string& line : table(*times)) say(NoticeKind::message, line);
 }
 
 void Terminal::json(const Document& document) {
@@ -299,6 +321,11 @@ void Terminal::draw_line(Clock::time_point now) {
     drawn_ = now;
     const std::size_t total_left = last_.total > done_at_start_ ? last_.total - done_at_start_ : 0;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+    if (writes_lines_) {
+        const auto left_s = time_left_s(last_.done - done_at_start_, total_left, elapsed_s);
+        std::cerr << text_of(document(ProgressState{last_, elapsed_s, left_s})) << std::endl;
+        return;
+    }
     const std::string line = progress_text(last_) + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
                              time_left(last_.done - done_at_start_, total_left, elapsed_s);
     winsize size{};

@@ -1,5 +1,5 @@
-// Output of the program: results on stdout, messages on stderr, progress with counts and the time left on a terminal
-// only. And the answer to Ctrl-C, also while work does not look for it.
+// Output of the program: results on stdout, messages on stderr, progress with counts and the time left on a terminal,
+// or as JSON. And the answer to Ctrl-C, also while work does not look for it.
 //
 // A thread of its own keeps the time in the progress line moving and watches for Ctrl-C; its users are one thread.
 
@@ -15,15 +15,17 @@
 #include <thread>
 #include <vector>
 
-#include "app/report/document.h"
+#include "app/report/notices.h"
 #include "app/store/project_context.h"
 #include "base/timings.h"
 
 namespace qchopper {
 
-// ", about 12 s left", for work whose items take the same time each. Empty in the first second, where `total` is not
-// known (0), before the first item is done, after the last one, and for more than 99 hours. Precondition: elapsed_s >=
-// 0.
+// The seconds that are left, of work whose items take the same time each. Nothing in the first second, where `total` is
+// not known (0), before the first item is done, after the last one, and for more than 99 hours. Precondition: elapsed_s
+// >= 0.
+std::optional<double> time_left_s(std::size_t done, std::size_t total, double elapsed_s);
+// ", about 12 s left", or empty.
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s);
 
 // "2,351 of 10,560 planes evaluated"; of per cent the total is no news: "23 % of the job".
@@ -49,6 +51,9 @@ class Terminal {
     void json(const Document& document);
 
     void set_quiet();
+    // From now on stderr holds a JSON document a line: how far work is, messages, warnings and errors
+    // (docs/user/troubleshooting.md).
+    void set_progress_json();
     // From now on contexts measure the time of stages.
     void set_timings();
 
@@ -78,6 +83,7 @@ class Terminal {
  private:
     using Clock = std::chrono::steady_clock;
 
+    void say(NoticeKind kind, const std::string& line);
     void progress(const Progress& progress);
     void draw_line(Clock::time_point now);
     void clear_line();
@@ -89,6 +95,7 @@ class Terminal {
 
     bool json_;
     bool quiet_ = false;
+    bool writes_lines_ = false;  // --progress json
     std::atomic<bool> shows_progress_;
     bool has_line_ = false;
     std::optional<Timings> timings_;

@@ -3,6 +3,8 @@
 #include "app/report/notices.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/report/report_json.h"
@@ -20,6 +22,20 @@ Document error_document(const std::string& error, const std::string& unchanged, 
                     {"unchanged", unchanged},
                     {"to_do", to_do},
                     {"exit_code", exit_code}});
+}
+
+Document document(const ProgressState& state) {
+    const Progress& p = state.progress;
+    nlohmann::ordered_json json{{"progress", p.what}, {"done", p.done}};
+    json["total"] = p.total == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(p.total);
+    json["elapsed_s"] = std::round(10 * state.elapsed_s) / 10;
+    json["left_s"] = state.left_s ? nlohmann::ordered_json(std::ceil(*state.left_s)) : nlohmann::ordered_json();
+    return compose_line(std::move(json));
+}
+
+Document notice_document(NoticeKind kind, const std::string& line) {
+    constexpr std::array names{"message", "warning", "error"};
+    return compose_line({{names[static_cast<std::size_t>(kind)], line}});
 }
 
 std::vector<std::string> lines(const WrittenSample& sample) {

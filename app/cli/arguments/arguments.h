@@ -220,6 +220,7 @@ struct SchemaArguments {
 struct Arguments {
     bool json = false;  // for the option parser only; run.cpp reads it before
     bool quiet = false;
+    std::string progress;  // json; as `json` above; empty: as a line on a terminal
     bool timings = false;
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,

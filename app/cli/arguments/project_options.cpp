@@ -189,6 +189,10 @@ void add_units(CLI::App* command, const std::string& of, std::optional<std::stri
 void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed) {
     command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
+    command
+        ->add_option("--progress", arguments.progress,
+                     "json: progress, messages, warnings and errors on stderr as a JSON document a line")
+        ->check(one_of({"json"}));
     command->add_flag("--timings", arguments.timings,
                       "print where the time went and the peak memory, on stderr; with --json in the document too");
     command

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/report/prepare_report.h"
 #include "tests/app/cli/program.h"
@@ -74,6 +76,41 @@ TEST_F(Json, OfPrepare) {
     EXPECT_NEAR(volume, scan, 1e-9 * scan);
     // Off a terminal there is no progress line that is drawn over.
     EXPECT_EQ(ended.err.find_first_of("\r\033"), std::string::npos) << ended.err;
+}
+
+// Per line of stderr its document.
+std::vector<json> progress_of(const program::Ended& ended) {
+    std::vector<json> all;
+    std::istringstream lines(ended.err);
+    for (std::string line; std::getline(lines, line);) {
+        all.push_back(json::parse(line, nullptr, false));
+        EXPECT_TRUE(all.back().is_object()) << line;
+    }
+    return all;
+}
+
+TEST_F(Json, OfProgress) {
+    program::Arguments arguments = program::prepare_arguments("scan.ply");
+    arguments.insert(arguments.end(), {"-o", "p.qch", "--scale", "1.01", "--progress", "json"});
+    const program::Ended ended = run(arguments);
+    std::map<std::string, std::size_t> kinds;
+    for (const json& line : progress_of(ended)) {
+        for (const char* kind : {"progress", "message", "warning", "error"}) kinds[kind] += line.contains(kind) ? 1 : 0;
+        if (!line.contains("progress")) continue;
+        EXPECT_GE(line["elapsed_s"].get<double>(), 0);
+        EXPECT_LE(line["done"], line["total"].is_null() ? line["done"] : line["total"]) << line;
+    }
+    EXPECT_GE(kinds["progress"], 5U) << ended.err;
+    EXPECT_GE(kinds["message"], 2U) << ended.err;
+    EXPECT_GE(kinds["warning"], 1U) << "of the scale";
+    EXPECT_EQ(kinds["error"], 0U);
+    for (const program::Arguments& wrong : {program::Arguments{"inspect", "no.ply", "--progress=json", "--quiet"},
+                                            {"inspect", "scan.ply", "--nonsense", "--progress", "json"}}) {
+        const std::vector<json> said = progress_of(run(wrong));
+        ASSERT_EQ(said.size(), 1U);
+        EXPECT_TRUE(said.front().contains("error")) << said.front();
+    }
+    EXPECT_EQ(run({"inspect", "scan.ply", "--progress", "yaml"}).code, 64);
 }
 
 TEST_F(Json, OfAPieceThatDoesNotFit) {
