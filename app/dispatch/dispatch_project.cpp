@@ -46,6 +46,22 @@ std::vector<std::string> why_not_any_cell(const ProjectJobs& ordered, const Disp
     return why;
 }
 
+// Leaves the job that is named by its bytes alone. Empty: it is there, or none was named.
+std::vector<std::string> why_not_that_job(ProjectJobs& ordered, const DispatchRequest& request) {
+    if (!request.job) return {};
+    std::erase_if(ordered.jobs, [&](const PieceJob& job) { return job.ticket.file_sha256 != *request.job; });
+    if (!ordered.jobs.empty()) return {};
+    return {"no job of " + (request.piece ? "piece " + *request.piece : "the project") + " has the SHA-256 " +
+            to_hex(*request.job) + ": it was made again since, or is one of another project"};
+}
+
+// Check 5.
+std::vector<std::string> why_not_this_cell(const DispatchRequest& request, bool is_simulated, const std::string& to) {
+    if (request.expects_simulated.value_or(is_simulated) == is_simulated) return {};
+    return {"the cell at " + to +
+            (is_simulated ? " is SIMULATED, and a real one is expected" : " is REAL, and a simulated one is expected")};
+}
+
 // What is assumed may be planned and simulated with, never milled with.
 void refuse_uncertain(const Cell& cell) {
     const CellCheck check = check_cell(cell);
@@ -121,11 +137,12 @@ std::vector<DispatchedJob> dispatch_with_journal(const std::vector<PieceJob>& jo
 
 DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& person, const ProjectContext& context) {
     context.saved(nothing_started);
-    const ProjectJobs ordered = jobs_of(request.project, request.piece, context);
+    ProjectJobs ordered = jobs_of(request.project, request.piece, context);
     const Cell& cell = ordered.cell;
     DispatchAnswer answer;
+    answer.refused = why_not_that_job(ordered, request);
     answer.wanted = ordered.jobs.size();
-    answer.refused = why_not_any_cell(ordered, request, person, context);
+    if (answer.refused.empty()) answer.refused = why_not_any_cell(ordered, request, person, context);
     if (!answer.refused.empty()) return answer;
     const std::optional<std::string> to = request.to ? request.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = request.drop ? request.drop : cell.link.drop;
@@ -138,6 +155,8 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
     DispatchOptions options = options_of(request, cell, contact(bus, *to, cell, context));
     options.address = *to;
     if (!request.chunks) options.drop_folder = *drop;
+    answer.refused = why_not_this_cell(request, options.want_simulated, *to);
+    if (!answer.refused.empty()) return answer;
     if (options.want_simulated) {
         context.message("the cell at " + *to + " is SIMULATED: nothing moves");
         context.warn(with(simulated_only_jobs(ordered), "; a real cell would not get it"));

@@ -1,11 +1,12 @@
 // Hands the jobs of a project to a cell, after all that speaks against it was looked at.
 //
 // The checks in their order; with the first that is not passed nothing is sent (tests/app/cli/dispatch_jobs_test.cpp):
+//   0. The job that is named by its bytes is one of the project.
 //   1. No job has a negative verdict, or one of other bytes (proven_jobs.h).
 //   2. No job leaves more surface out of reach than its limit, unless that is accepted.
 //   3. Every piece is held, unless that is accepted, beforehand or by the operator who is asked.
 //   4. An address is known, and a drop folder that is there, unless files are sent in chunks.
-//   5. STATUS of the cell is read: a real cell is never taken for a simulated one.
+//   5. STATUS of the cell is read: a real cell is never taken for a simulated one, and is what the request expects.
 //   6. At a real cell: the cell file states everything for certain (cell_check.h), every job has a program and a
 //   positive
 //      verdict, and the operator confirms, beforehand or when asked.
@@ -22,12 +23,15 @@
 #include "app/dispatch/dispatch_jobs.h"
 #include "app/dispatch/operator.h"
 #include "app/store/project_context.h"
+#include "base/sha256.h"
 
 namespace qchopper {
 
 struct DispatchRequest {
     std::filesystem::path project;
     std::optional<std::string> piece;           // nothing: all
+    std::optional<Sha256> job;                  // only the job file of these bytes
+    std::optional<bool> expects_simulated;      // whether the cell has to be; nothing: any
     std::optional<std::string> to;              // HOST:PORT; nothing: as the cell file says
     std::optional<std::filesystem::path> drop;  // drop folder of the cell; nothing: as the cell file says
     bool chunks = false;                        // files are sent over the link, without a drop folder

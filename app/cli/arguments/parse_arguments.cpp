@@ -355,6 +355,14 @@ struct Parser {
         CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
         add_project(c, dispatch.project);
         c->add_option("--piece", dispatch.piece, "only this piece");
+        c->add_option_function<std::string>(
+             "--job", [this](const std::string& digits) { dispatch.job = sha256_from_hex(digits); },
+             "only the job file of this SHA-256, as the project records it")
+            ->check(read_by(sha256_from_hex, "no SHA-256, which has 64 hexadecimal digits"));
+        c->add_option_function<std::string>(
+             "--expect", [this](const std::string& kind) { dispatch.expects_simulated = kind == "simulated"; },
+             "send nothing unless the cell that answers is one of this kind: real or simulated (any)")
+            ->check(one_of({"real", "simulated"}));
         c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
         c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
         c->add_flag("--yes", dispatch.is_confirmed, "do not ask before a real cell is set in motion");

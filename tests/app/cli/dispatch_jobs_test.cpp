@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "app/cli/exit_code.h"
+#include "base/files/file.h"
+#include "base/sha256.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -82,6 +84,35 @@ TEST_F(DispatchJobs, WithoutAnybodyToAskThereIsNoConsent) {
     const std::string to = start_cell("ask");
     const Ended ended = dispatch(to);
     EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    expect_cell_stops();
+}
+
+TEST_F(DispatchJobs, ACellOfAnotherKindThanIsExpectedGetsNothing) {
+    const std::string to = start_cell("auto");
+    const Ended real = dispatch(to, {"--piece", "C", "--expect", "real", "--yes"});
+    EXPECT_EQ(real.code, exit_demand_broken);
+    EXPECT_TRUE(has(real.err, "is SIMULATED, and a real one is expected")) << real.err;
+    EXPECT_TRUE(has(real.out, "no job was sent")) << real.out;
+    EXPECT_TRUE(fs::is_empty(folder.path / "drop"));
+    EXPECT_EQ(dispatch(to, {"--piece", "C", "--expect", "simulated"}).code, 0);
+    EXPECT_EQ(dispatch(to, {"--expect", "neither"}).code, exit_use);
+    expect_cell_stops();
+}
+
+TEST_F(DispatchJobs, OnlyTheJobOfTheseBytesIsSent) {
+    const std::string to = start_cell("auto");
+    const auto sha256_of = [&](const std::string& piece) {
+        const Bytes bytes = read_file(folder.path / "p.qch" / "jobs" / (piece + ".qjob"));
+        return to_hex(sha256(bytes));
+    };
+    const Ended other = dispatch(to, {"--piece", "C", "--job", sha256_of("D")});
+    EXPECT_EQ(other.code, exit_demand_broken);
+    EXPECT_TRUE(has(other.err, "no job of piece C has the SHA-256 " + sha256_of("D"))) << other.err;
+    const Ended sent = dispatch(to, {"--job", sha256_of("D")});
+    EXPECT_EQ(sent.code, 0) << sent.err;
+    EXPECT_TRUE(has(sent.out, "all 1 jobs ended complete")) << sent.out;
+    EXPECT_TRUE(has(sent.out, "\nD ")) << sent.out;
+    EXPECT_EQ(dispatch(to, {"--job", "12ab"}).code, exit_use);
     expect_cell_stops();
 }
 
