@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <fstream>
 
 namespace qchopper {
 
@@ -23,6 +24,14 @@ std::string host_name() {
         if ((c < '0' || c > '9') && (c < 'A' || c > 'Z') && (c < 'a' || c > 'z')) c = '-';
     }
     return host.empty() ? "unknown" : host;
+}
+
+std::string first_argument() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::string word;
+    std::getline(file, word, '\0');  // the name of the program
+    std::getline(file, word, '\0');
+    return file ? word : std::string();
 }
 
 bool has_process_ended(long process) {

@@ -10,6 +10,9 @@ namespace qchopper {
 // Of the machine, as a part of a file name: at most 24 letters, digits and hyphens.
 std::string host_name();
 
+// The first argument of this process, as its caller gave it; empty without one.
+std::string first_argument();
+
 // Whether there is no process of that number on this machine.
 bool has_process_ended(long process);
 

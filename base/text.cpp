@@ -3,8 +3,10 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <system_error>
 
 namespace qchopper {
@@ -51,6 +53,15 @@ std::string duration(std::uint32_t seconds) {
     if (minutes < 60) return std::to_string(minutes) + " min";
     const std::string rest = std::to_string(minutes % 60);
     return std::to_string(minutes / 60) + " h " + (rest.size() < 2 ? "0" : "") + rest + " min";
+}
+
+std::string utc_text(std::uint64_t unix_ms) {
+    const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
+    std::tm parts{};
+    ::gmtime_r(&seconds, &parts);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &parts);
+    return text.data();
 }
 
 }  // namespace qchopper

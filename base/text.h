@@ -26,4 +26,7 @@ std::string describe_volume(double mm3);
 // "45 s"; from a minute on rounded to minutes: "12 min", "3 h 05 min".
 std::string duration(std::uint32_t seconds);
 
+// "2026-11-22 17:43:28", in UTC.
+std::string utc_text(std::uint64_t unix_ms);
+
 }  // namespace qchopper

@@ -6,7 +6,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
 
 #include "app/store/ignored_surface.h"
@@ -16,6 +19,8 @@
 #include "base/files/staged_folder.h"
 #include "base/files/temporary_name.h"
 #include "base/printable.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "cam/cell/cell.h"
 
 namespace qchopper {
@@ -109,16 +114,43 @@ void clear_leftovers(const fs::path& folder) {
     for (const fs::path& file : left) fs::remove_all(file);
 }
 
+namespace {
+
+// The line that the holder of a lock writes into its file: "prepare, process 4711 on bench, since 2026-11-22 17:43:28".
+std::string holder_line() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+    return first_argument() + ", process " + std::to_string(::getpid()) + " on " + host_name() + ", since " +
+           utc_text(static_cast<std::uint64_t>(ms)) + " UTC\n";
+}
+
+// What another process has written there: ": " and its line, or nothing.
+std::string holder_of(int descriptor) {
+    std::array<char, 256> text{};
+    const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
+    const std::string line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    const std::size_t end = line.find('\n');
+    return end == std::string::npos ? std::string() : ": " + line.substr(0, end);
+}
+
+}  // namespace
+
 ProjectLock::ProjectLock(const fs::path& folder)
     : descriptor_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (descriptor_ < 0) {
         throw InputError(InputFault::create, folder.string() + " cannot be written", "check the rights of the folder");
     }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+        const std::string line = holder_line();
+        // For the message of another process only: without it, as on a full disk, the lock holds all the same.
+        static_cast<void>(::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, line.data(), line.size(), 0) > 0);
+        return;
+    }
     const int fault = errno;
+    const std::string holder = holder_of(descriptor_);
     ::close(descriptor_);
     if (fault == EWOULDBLOCK) {
-        throw InputError(InputFault::busy, folder.string() + " is being written by another qchopper",
+        throw InputError(InputFault::busy, folder.string() + " is being written by another qchopper" + holder,
                          "wait until it has ended, or stop it");
     }
     // ENOLCK, EOPNOTSUPP, ENOSYS: such as a network file system without a lock manager.
@@ -129,6 +161,7 @@ ProjectLock::ProjectLock(const fs::path& folder)
 }
 
 ProjectLock::~ProjectLock() {
+    static_cast<void>(::ftruncate(descriptor_, 0) == 0);
     ::close(descriptor_);
 }
 

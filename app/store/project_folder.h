@@ -10,7 +10,7 @@
 //     pictures/*.png
 //     work/             programs made by other processes (app/engine/work_project.h)
 //     cache/            evaluations (evaluation_store.h); may be deleted at any time
-//     lock              held while a program writes
+//     lock              held while a program writes, and says which
 //
 // Everything but cell.toml, ignored.bin and no_cut.bin follows from project.json and the scan. Pieces, jobs and
 // pictures are never stale: they are removed before a decision changes and written when the cutting is over
@@ -65,8 +65,8 @@ void clear_leftovers(const std::filesystem::path& folder);
 // the program ends in any way.
 class ProjectLock {
  public:
-    // Throws InputError: (busy) another program holds the lock, (create) the folder cannot be written
-    // or its file system has no locks.
+    // Throws InputError: (busy) another program holds the lock, with its command, process, host and start; (create) the
+    // folder cannot be written or its file system has no locks.
     explicit ProjectLock(const std::filesystem::path& folder);
     ~ProjectLock();
     ProjectLock(const ProjectLock&) = delete;

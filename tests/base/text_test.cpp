@@ -93,5 +93,10 @@ TEST(EditDistance, IsThatOfTheTextbook) {
     EXPECT_EQ(edit_distance("flaw", "lawn"), 2U);
 }
 
+TEST(Text, ATimeIsThatOfTheMeridianOfGreenwich) {
+    EXPECT_EQ(utc_text(0), "1970-01-01 00:00:00");
+    EXPECT_EQ(utc_text(1'795'823'999'999), "2026-11-27 23:59:59");
+}
+
 }  // namespace
 }  // namespace qchopper

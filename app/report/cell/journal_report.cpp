@@ -2,12 +2,12 @@
 
 #include "app/report/cell/journal_report.h"
 
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
 #include "app/report/report_json.h"
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/uuid.h"
 #include "devices/hand_off/journal_history.h"
 
@@ -15,16 +15,6 @@ namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// "2026-11-22 17:43:28" in UTC.
-std::string time_text(std::uint64_t unix_ms) {
-    const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
-    std::tm parts{};
-    ::gmtime_r(&seconds, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-    return text;
-}
 
 std::string job_text(const JournalEvent& event) {
     return event.job_id == Uuid{} ? "-" : to_text(event.job_id).substr(0, 8);
@@ -60,7 +50,7 @@ std::vector<std::string> lines(const std::vector<JournalReport>& reports) {
         if (report.shows) {
             std::vector<std::vector<std::string>> rows{{"row", "UTC", "job", "event", ""}};
             for (const JournalRow& row : report.content.rows) {
-                rows.push_back({std::to_string(row.number), time_text(row.unix_ms), job_text(row.event),
+                rows.push_back({std::to_string(row.number), utc_text(row.unix_ms), job_text(row.event),
                                 name(row.event.kind), describe(row.event)});
             }
             for (std::string& line : columns(rows)) text.push_back(std::move(line));

@@ -17,6 +17,7 @@
 
 #include "app/store/project_folder.h"
 #include "base/error.h"
+#include "base/process.h"
 
 namespace qchopper {
 namespace {
@@ -48,7 +49,15 @@ TEST_F(ProjectLocks, OneProgramHoldsItAtATime) {
         FAIL() << "two hold the lock";
     } catch (const InputError& error) {
         EXPECT_EQ(error.fault, InputFault::busy) << error.what();
+        const std::string holder = first_argument() + ", process " + std::to_string(::getpid()) + " on " + host_name();
+        EXPECT_NE(std::string(error.what()).find("by another qchopper: " + holder + ", since 20"), std::string::npos)
+            << error.what();
     }
+}
+
+TEST_F(ProjectLocks, ItSaysOnlyWhileItIsHeldWhoHoldsIt) {
+    { const ProjectLock held(folder); }
+    EXPECT_TRUE(fs::is_empty(folder / "lock"));
 }
 
 TEST_F(ProjectLocks, AFileSystemWithoutLocksIsNotTakenForABusyProject) {
