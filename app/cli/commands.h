@@ -19,6 +19,7 @@ int run(const RepairArguments& arguments, Terminal& terminal);
 int run(const PrepareArguments& arguments, Terminal& terminal);
 int run(const SegmentArguments& arguments, Terminal& terminal);
 int run(const ExplainArguments& arguments, Terminal& terminal);
+int run(const GuideArguments& arguments, Terminal& terminal);
 int run(const ExportArguments& arguments, Terminal& terminal);
 int run(const CellsListArguments& arguments, Terminal& terminal);
 int run(const CellsShowArguments& arguments, Terminal& terminal);

@@ -322,8 +322,11 @@ void Terminal::draw_line(Clock::time_point now) {
     const std::size_t total_left = last_.total > done_at_start_ ? last_.total - done_at_start_ : 0;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
     if (writes_lines_) {
-        const auto left_s = time_left_s(last_.done - done_at_start_, total_left, elapsed_s);
-        std::cerr << text_of(document(ProgressState{last_, elapsed_s, left_s})) << std::endl;
+        ProgressState state{last_.what, last_.done, {}, std::round(10 * elapsed_s) / 10, {}};
+        if (last_.total > 0) state.total = last_.total;
+        state.left_s = time_left_s(last_.done - done_at_start_, total_left, elapsed_s);
+        if (state.left_s) state.left_s = std::ceil(*state.left_s);
+        std::cerr << text_of(document(state)) << std::endl;
         return;
     }
     const std::string line = progress_text(last_) + "  " + fixed(std::floor(elapsed_s), 0) + " s" +

@@ -2,6 +2,7 @@
 
 #include "app/jobs/project_joints.h"
 
+#include "base/text.h"
 #include "base/timings.h"
 
 namespace qchopper {
@@ -18,6 +19,14 @@ JointSettings joint_settings(const Cell* cell) {
 JointFaces joint_faces(const PieceJoint& joint, const Setup& below, const Setup& above) {
     const int sawn = (below.is_unmilled(joint.cut) ? 1 : 0) + (above.is_unmilled(joint.cut) ? 1 : 0);
     return sawn == 2 ? JointFaces::sawn_sawn : sawn == 1 ? JointFaces::sawn_milled : JointFaces::milled_milled;
+}
+
+std::string describe_dowels(const PieceJoint& joint) {
+    std::string words;
+    for (const Dowel& dowel : joint.dowels) {
+        words += (words.empty() ? "" : " + ") + significant(dowel.size.diameter, 4);
+    }
+    return words.empty() ? "none" : words;
 }
 
 ProjectJoints project_joints(const Segmentation& segmentation, const Cell* cell, const Context& context) {

@@ -40,6 +40,9 @@ struct ProjectJoints {
     double accuracy = Saw{}.accuracy;  // mm, by which each joint may be off
 };
 
+// "8 + 6", or "none": the diameters of the holes of its dowels.
+std::string describe_dowels(const PieceJoint& joint);
+
 // `cell` may be nullptr: then dowels have the default sizes.
 JointSettings joint_settings(const Cell* cell);
 

@@ -12,8 +12,6 @@
 #include "base/timings.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
-#include "cam/job/sheet/order_sheets.h"
-#include "cam/job/sheet/saw_list.h"
 
 namespace qchopper {
 namespace {
@@ -50,11 +48,6 @@ std::optional<SawnBlock> only_sawn(const Segmentation& segmentation, std::size_t
     return sawn_block(piece.name, std::nullopt, setup, caps, setups.cell());
 }
 
-void remove_saw_list(const fs::path& folder) {
-    std::error_code error;
-    for (const char* name : {saw_list_page, saw_list_document}) fs::remove(folder / name, error);
-}
-
 void write_saw_list(const fs::path& folder, const SawList& list) {
     if (list.blocks.empty()) return;
     write_file(folder / saw_list_page, saw_list_html(list));
@@ -63,21 +56,19 @@ void write_saw_list(const fs::path& folder, const SawList& list) {
 
 }  // namespace
 
-void write_sheets(const fs::path& folder, const Project& project, const Segmentation& segmentation, Setups& setups,
-                  std::span<const PieceJoint> joints, const Context& context) {
-    const StageTimer stage(context, "sheets written");
-    const Cell& cell = setups.cell();
-    std::vector<SheetOfOrder> sheets;
-    std::vector<SawnBlock> blocks;
+OrderContent order_content(const fs::path& folder, const Project& project, const Segmentation& segmentation,
+                           Setups& setups, std::span<const PieceJoint> joints) {
+    OrderContent content;
+    auto& [sheets, blocks, without, setups_of_jobs] = content;
     for (const WrittenJob& written : project.jobs) {
         const fs::path file = folder / "jobs" / job_file_name(written.piece, written.part);
         const ReadJob job = parse_job(read_job(file), file.string());
         sheets.push_back(sheet_of(job, file.filename().string(), state_of(job, file)));
         if (written.part > 1) continue;
-        auto block = sawn_block(job.piece, file.filename().string(), job.setup, job.caps, cell);
+        auto block = sawn_block(job.piece, file.filename().string(), job.setup, job.caps, setups.cell());
         if (block) blocks.push_back(*std::move(block));
+        setups_of_jobs.emplace(job.piece, job.setup);
     }
-    PiecesWithoutJob without;
     for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
         const std::string& name = segmentation.pieces[i].name;
         const bool has_job =
@@ -87,10 +78,17 @@ void write_sheets(const fs::path& folder, const Project& project, const Segmenta
         (block ? without.only_sawn : without.others).push_back(name);
         if (block) blocks.push_back(*std::move(block));
     }
+    return content;
+}
+
+void write_sheets(const fs::path& folder, const Project& project, const Segmentation& segmentation, Setups& setups,
+                  std::span<const PieceJoint> joints, const Context& context) {
+    const StageTimer stage(context, "sheets written");
+    OrderContent content = order_content(folder, project, segmentation, setups, joints);
     const std::string order = project.scan.path.filename().string();
-    write_file(folder / sheets_file, order_sheets(order, sheets, without));
-    remove_saw_list(folder);
-    write_saw_list(folder, saw_list(order, cell.saw.accuracy, std::move(blocks)));
+    remove_sheets(folder);
+    write_file(folder / sheets_file, order_sheets(order, content.sheets, content.without_job));
+    write_saw_list(folder, saw_list(order, setups.cell().saw.accuracy, std::move(content.blocks)));
 }
 
 void remove_sheets(const fs::path& folder) {

@@ -24,15 +24,6 @@ Json name_json(const std::vector<std::size_t>& indices, const ProjectJoints& of)
     return list_of(indices, [&](std::size_t i) { return Json(of.pieces[i]); });
 }
 
-// "8 + 6 mm"
-std::string dowel_words(const PieceJoint& joint) {
-    std::string words;
-    for (const Dowel& dowel : joint.dowels) {
-        words += (words.empty() ? "" : " + ") + significant(dowel.size.diameter, 4);
-    }
-    return words.empty() ? "none" : words;
-}
-
 const char* fault_word(JointFault fault) {
     switch (fault) {
         case JointFault::none:
@@ -103,7 +94,7 @@ std::vector<std::string> joint_lines(const ProjectJoints& of) {
     for (std::size_t j = 0; j < of.joints.size(); ++j) {
         const PieceJoint& joint = of.joints[j];
         rows.push_back({of.pieces[joint.below] + "-" + of.pieces[joint.above], std::to_string(joint.cut),
-                        fixed(joint.contact.area_mm2 / 100, 1), dowel_words(joint)});
+                        fixed(joint.contact.area_mm2 / 100, 1), describe_dowels(joint)});
         if (!of.faces.empty()) rows.back().emplace_back(names_of(of.faces[j])(of.faces[j]));
         sound += joint.fault == JointFault::none ? 1 : 0;
     }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/report/report_json.h"
@@ -14,6 +13,25 @@
 #include "sim/cell/faults.h"
 
 namespace qchopper {
+
+template <class V, Of<ProgressState> T>
+void fields(V& v, T& state) {
+    v("progress", state.progress);
+    v("done", state.done);
+    v("total", state.total);
+    v("elapsed_s", state.elapsed_s);
+    v("left_s", state.left_s);
+}
+
+template <class V, Of<WrittenGuide> T>
+void fields(V& v, T& guide) {
+    v.constant("schema", "qchopper-guide-1", nullptr);
+    v("pieces", guide.pieces);
+    v("joints", guide.joints);
+    v("steps", guide.steps);
+    v("files", guide.files);
+    v("held", guide.held);
+}
 
 Document error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
                         int exit_code) {
@@ -25,12 +43,7 @@ Document error_document(const std::string& error, const std::string& unchanged, 
 }
 
 Document document(const ProgressState& state) {
-    const Progress& p = state.progress;
-    nlohmann::ordered_json json{{"progress", p.what}, {"done", p.done}};
-    json["total"] = p.total == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(p.total);
-    json["elapsed_s"] = std::round(10 * state.elapsed_s) / 10;
-    json["left_s"] = state.left_s ? nlohmann::ordered_json(std::ceil(*state.left_s)) : nlohmann::ordered_json();
-    return compose_line(std::move(json));
+    return compose_line(json_of(state));
 }
 
 Document notice_document(NoticeKind kind, const std::string& line) {
@@ -62,6 +75,10 @@ Document document(const WrittenSample& sample) {
                     {"groove_depth_mm", sample.pen_grooves.depth},
                     {"units", "mm"},
                     {"size", describe_size(bounds(sample.mesh).size())}});
+}
+
+Document document(const WrittenGuide& guide) {
+    return compose(json_of(guide));
 }
 
 Document listening_document(const std::string& address) {

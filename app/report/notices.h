@@ -1,13 +1,13 @@
-// Small JSON documents: an error and how far work is (docs/user/troubleshooting.md), a specimen that was made, a
-// simulated cell that listens, its faults.
+// Small JSON documents: an error and how far work is (docs/user/troubleshooting.md), a specimen or a guide that
+// was made, a simulated cell that listens, its faults.
 
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "app/guide/write_guide.h"
 #include "app/report/document.h"
-#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/sample/sample.h"
 
@@ -18,7 +18,9 @@ Document error_document(const std::string& error, const std::string& unchanged, 
 
 // What --progress json prints: how far work is, and a line for the operator.
 struct ProgressState {
-    Progress progress;
+    std::string progress;  // "planes evaluated"
+    std::size_t done = 0;
+    std::optional<std::size_t> total;  // nothing: not known
     double elapsed_s = 0;
     std::optional<double> left_s;  // as estimated; nothing: not known yet
 };
@@ -36,6 +38,9 @@ struct WrittenSample {
 };
 std::vector<std::string> lines(const WrittenSample& sample);
 Document document(const WrittenSample& sample);
+
+// An assembly guide that was written.
+Document document(const WrittenGuide& guide);
 
 // `address`: HOST:PORT.
 Document listening_document(const std::string& address);

@@ -1,4 +1,5 @@
-// Folders are staged and renamed (base/files/staged_folder.h); the lock is flock(2) on a file that stays.
+// Folders are staged and renamed (base/files/staged_folder.h); the lock is flock(2) on a file that stays. O(bytes), and
+// O(files) where leftovers are looked for.
 
 #include "app/store/project_folder.h"
 

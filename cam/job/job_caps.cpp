@@ -29,18 +29,6 @@ Point2 in_cap(const Pose& cap_in_piece, Vec3 point) {
     return {p.x, p.y};
 }
 
-Point2 middle_of(const FlatRegion& contact, const Plane& plane, const Pose& cap_in_piece) {
-    Vec3 sum;
-    double count = 0;
-    for (const CapRegion& region : contact.regions) {
-        for (const std::uint32_t p : contact.loops[region.outer]) {
-            sum = sum + from_plane(plane, contact.points[p]);
-            ++count;
-        }
-    }
-    return in_cap(cap_in_piece, 1 / count * sum);
-}
-
 // The side of the block in which a cap lies by its sawn face, at the side; nothing for other caps.
 std::optional<BlockFace> sawn_side(const Setup& setup, std::int32_t cut) {
     for (const FlushCap& cap : setup.flush_caps) {
@@ -126,7 +114,7 @@ std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, 
             made.neighbour = pieces[joint.below == index ? joint.above : joint.below].name;
             made.note = describe_fault(joint, pieces, joints);
             drawn.cap.joints.push_back(std::move(made));
-            drawn.names_at.push_back(middle_of(joint.contact, joint.plane, frame));
+            drawn.names_at.push_back(in_cap(frame, middle_of(joint.contact, joint.plane)));
         }
         if (drawn.cap.joints.empty()) continue;
         if (const std::optional<BlockFace> side = sawn_side(setup, half_space.cut)) {

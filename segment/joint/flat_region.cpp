@@ -223,6 +223,18 @@ FlatRegion region_of(const FlatPolygons& flat, const Plane& plane, double min_mm
 
 }  // namespace
 
+Vec3 middle_of(const FlatRegion& region, const Plane& plane) {
+    Vec3 sum;
+    double count = 0;
+    for (const CapRegion& part : region.regions) {
+        for (const std::uint32_t p : region.loops[part.outer]) {
+            sum = sum + from_plane(plane, region.points[p]);
+            ++count;
+        }
+    }
+    return 1 / count * sum;
+}
+
 FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const Piece& above, const HalfSpace& of_above,
                           double min_mm2) {
     assert(of_below.cut == of_above.cut && !of_below.above && of_above.above);

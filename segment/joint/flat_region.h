@@ -40,6 +40,9 @@ std::vector<Loop> outlines(const FlatPolygons& flat);
 // counter-clockwise. Points that they do not use are left out.
 FlatPolygons cap_polygons(const Piece& piece, const HalfSpace& half_space);
 
+// The mean of the corners of the outer loops. Precondition: the region is not empty.
+Vec3 middle_of(const FlatRegion& region, const Plane& plane);
+
 // Where two pieces on the two sides of a cut touch along its plane, without regions smaller than `min_mm2`. `below`
 // and `above` bound the pieces and have the same cut. Empty if they do not touch. O(cap triangles of both).
 FlatRegion contact_region(const Piece& below, const HalfSpace& of_below, const Piece& above, const HalfSpace& of_above,

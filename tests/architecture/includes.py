@@ -36,7 +36,7 @@ SUB_MODULES = {
     "cam": ["cell", "setup", "stock", "toolpath", "program", "post", "job", "export"],
     "devices": ["wire", "journal", "hand_off"],
     "sim": ["cell", "program", "replay"],
-    "app": ["store", "pictures", "jobs", "engine", "dispatch", "report", "cli"],
+    "app": ["store", "pictures", "jobs", "engine", "guide", "dispatch", "report", "cli"],
 }
 
 # What a module or sub-module may include beside itself, where that is less than everything before it. A name that ends

@@ -126,6 +126,10 @@ struct ExplainArguments {
     std::optional<std::filesystem::path> out;  // of the plot
 };
 
+struct GuideArguments {
+    std::filesystem::path project;
+};
+
 struct ExportArguments : ExportRequest {
     std::filesystem::path project;
 };
@@ -224,10 +228,10 @@ struct Arguments {
     bool timings = false;
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
-                 ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments, GatherArguments, VerifyArguments,
-                 DryRunArguments, CellSimArguments, DispatchArguments, JournalArguments, CellControlArguments,
-                 SchemaArguments>
+                 ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
+                 CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
+                 GatherArguments, VerifyArguments, DryRunArguments, CellSimArguments, DispatchArguments,
+                 JournalArguments, CellControlArguments, SchemaArguments>
         command;
 };
 

@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 19> all_examples{{
+constexpr std::array<Examples, 20> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -46,6 +46,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper segment fine.ply --units mm --replay vertebra.plan.toml -o fine.qch)"},
     {"explain", R"(  qchopper explain vertebra.qch
   qchopper explain vertebra.qch --cut 1 -o cut-1.svg)"},
+    {"guide", R"(  qchopper guide vertebra.qch)"},
     {"export", R"(  qchopper export vertebra.qch --format 3mf
   qchopper export vertebra.qch --format stl --pose setup --simplify 0.05 -o models)"},
     {"cells", R"(  qchopper cells list

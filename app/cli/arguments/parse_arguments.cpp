@@ -86,6 +86,7 @@ struct Parser {
     PrepareArguments prepare;
     SegmentArguments segment;
     ExplainArguments explain;
+    GuideArguments guide;
     ExportArguments exported;
     CellsListArguments cells_list;
     CellsShowArguments cells_show;
@@ -114,6 +115,7 @@ struct Parser {
         add_prepare(app, prepare, common);
         add_segment(app, segment, common);
         add_explain();
+        add_guide();
         add_export();
         add_cells();
         add_setup();
@@ -169,6 +171,12 @@ struct Parser {
             ->check(number_between(1, 1e6, "the number of a cut"));
         c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
         add_common(c, common, [this] { common.command = explain; });
+    }
+
+    void add_guide() {
+        CLI::App* c = app.add_subcommand("guide", "write a guide to the assembly: pictures, blocks, dowels, steps");
+        add_project(c, guide.project);
+        add_common(c, common, [this] { common.command = guide; });
     }
 
     void add_export() {

@@ -1,21 +1,16 @@
-// Every page draws the whole template, moved, and clips it to its window; the PDF is written by libharu. O(tiles *
-// corners).
+// Every page draws the whole template, moved, and clips it to its window. O(tiles * corners).
 
 #include "cam/job/sheet/template_pdf.h"
 
-#include <hpdf.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 
 #include "base/error.h"
+#include "segment/picture/pdf.h"
 
 namespace qchopper {
 namespace {
 
-constexpr Point2 a4{210, 297};
 constexpr double margin = 10;  // of a page, which printers leave white
 constexpr double strip = 20;   // below the window, for bar and names
 
@@ -100,71 +95,15 @@ CapTemplate strip_of(const CapTemplate& drawing, const TemplateTiles& tiles, std
     return below;
 }
 
-// The page of a PDF counts in points.
-constexpr double points_per_mm = 72 / 25.4;
-
-HPDF_REAL to_points(double mm) {
-    return static_cast<HPDF_REAL>(mm * points_per_mm);
-}
-
-struct FreePdf {
-    void operator()(HPDF_Doc document) const { HPDF_Free(document); }
-};
-using Pdf = std::unique_ptr<_HPDF_Doc_Rec, FreePdf>;
-
-void draw_line(HPDF_Page page, const std::vector<Point2>& line, bool is_closed) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const auto to = i == 0 ? HPDF_Page_MoveTo : HPDF_Page_LineTo;
-        to(page, to_points(line[i].x), to_points(line[i].y));
-    }
-    if (is_closed) HPDF_Page_ClosePath(page);
-    HPDF_Page_Stroke(page);
-}
-
-void draw_text(HPDF_Page page, HPDF_Font font, const TemplateText& text) {
-    HPDF_Page_SetFontAndSize(page, font, to_points(text.height));
-    const double width =
-        text.is_centred ? static_cast<double>(HPDF_Page_TextWidth(page, text.text.c_str())) / points_per_mm : 0.0;
-    HPDF_Page_BeginText(page);
-    HPDF_Page_TextOut(page, to_points(text.at.x - width / 2), to_points(text.at.y), text.text.c_str());
-    HPDF_Page_EndText(page);
-}
-
-void draw(HPDF_Page page, HPDF_Font font, const CapTemplate& drawing) {
-    HPDF_Page_SetLineWidth(page, to_points(0.3));
-    for (const std::vector<Point2>& outline : drawing.outlines) draw_line(page, outline, true);
-    HPDF_Page_SetLineWidth(page, to_points(0.15));
-    for (const std::vector<Point2>& line : drawing.lines) draw_line(page, line, false);
-    for (const TemplateCircle& circle : drawing.circles) {
-        HPDF_Page_Circle(page, to_points(circle.middle.x), to_points(circle.middle.y), to_points(circle.radius));
-        HPDF_Page_Stroke(page);
-    }
-    for (const TemplateText& text : drawing.texts) draw_text(page, font, text);
-}
-
-// The part of the drawing that lies in the window, in true size.
-void draw_window(HPDF_Page page, HPDF_Font font, const CapTemplate& drawing, const TemplateTiles& tiles,
-                 Point2 corner) {
-    HPDF_Page_GSave(page);
-    HPDF_Page_Rectangle(page, to_points(margin), to_points(margin + strip), to_points(tiles.window.x),
-                        to_points(tiles.window.y));
-    HPDF_Page_Clip(page);
-    HPDF_Page_EndPath(page);
-    HPDF_Page_Concat(page, 1, 0, 0, 1, to_points(margin - corner.x), to_points(margin + strip - corner.y));
-    draw(page, font, drawing);
-    HPDF_Page_GRestore(page);
-}
-
-Bytes bytes_of(HPDF_Doc document) {
-    Bytes bytes;
-    HPDF_SaveToStream(document);
-    HPDF_ResetStream(document);
-    for (;;) {
-        std::array<HPDF_BYTE, 4096> block;
-        HPDF_UINT32 size = block.size();
-        const HPDF_STATUS status = HPDF_ReadFromStream(document, block.data(), &size);
-        bytes.insert(bytes.end(), block.begin(), block.begin() + size);
-        if (status != HPDF_OK || size == 0) return bytes;
+void draw(Pdf& pdf, const CapTemplate& drawing) {
+    pdf.set_line_width(0.3);
+    for (const std::vector<Point2>& outline : drawing.outlines) pdf.draw_line(outline, true);
+    pdf.set_line_width(0.15);
+    for (const std::vector<Point2>& line : drawing.lines) pdf.draw_line(line);
+    for (const TemplateCircle& circle : drawing.circles) pdf.draw_circle(circle.middle, circle.radius);
+    for (const TemplateText& text : drawing.texts) {
+        const double width = text.is_centred ? pdf.text_width(text.height, text.text) : 0.0;
+        pdf.draw_text({text.at.x - width / 2, text.at.y}, text.height, text.text);
     }
 }
 
@@ -181,22 +120,20 @@ Bytes template_pdf(const CapTemplate& drawing) {
     if (drawing.sheet.x > largest || drawing.sheet.y > largest) {
         throw InputError(InputFault::use, "a cap is larger than a template can be, 5 m", "cut the piece further");
     }
-    const Pdf document(HPDF_New(nullptr, nullptr));
-    if (!document) throw InputError(InputFault::io, "the PDF library has no memory for a template");
-    HPDF_Font font = HPDF_GetFont(document.get(), "Helvetica", nullptr);
+    Pdf pdf;
     const TemplateTiles tiles = tiles_of(drawing.sheet);
     CapTemplate marked = drawing;
     add_seams(marked, tiles);
+    const Point2 window{margin, margin + strip};
     for (std::size_t tile = 0; tile < tiles.corners.size(); ++tile) {
-        HPDF_Page page = HPDF_AddPage(document.get());
-        HPDF_Page_SetWidth(page, to_points(tiles.paper.x));
-        HPDF_Page_SetHeight(page, to_points(tiles.paper.y));
-        draw_window(page, font, marked, tiles, tiles.corners[tile]);
-        draw(page, font, strip_of(drawing, tiles, tile));
+        const Point2 corner = tiles.corners[tile];
+        pdf.add_page(tiles.paper);
+        pdf.begin_window(window, tiles.window, {window.x - corner.x, window.y - corner.y});  // in true size
+        draw(pdf, marked);
+        pdf.end_window();
+        draw(pdf, strip_of(drawing, tiles, tile));
     }
-    Bytes bytes = bytes_of(document.get());
-    if (bytes.empty()) throw InputError(InputFault::io, "the PDF library made no template");
-    return bytes;
+    return pdf.bytes();
 }
 
 }  // namespace qchopper

@@ -108,6 +108,7 @@ TEST_F(TimingsOption, OfEveryCommandOnScansAndProjects) {
         {{"segment", "hand.qch", "--accept", "1"}, {"planes ranked", "cuts made", "project saved"}},
         {{"segment", "hand.qch", "--undo"}, {"cuts replayed", "project saved"}},
         {{"explain", "p.qch"}, {"scan read", "cuts replayed", "planes ranked"}},
+        {{"guide", "p.qch"}, {"dowels placed", "guide drawn", "guide written"}},
         {{"export", "p.qch", "--format", "3mf"}, {"pieces read", "pieces written"}},
         {{"export", "p.qch", "--format", "stl", "--simplify", "0.05"}, {"pieces simplified", "pieces written"}},
         {{"dry-run", "p.qch"}, {"jobs read", "jobs handed over"}},

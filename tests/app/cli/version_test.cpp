@@ -27,10 +27,10 @@ TEST(Version, NamesTheBuildAndJobsRecordIt) {
 
 TEST(Version, OptionsThatEveryCommandHasAreInItsHelp) {
     const program::Folder folder;
-    for (const char* command : {"sample", "inspect", "repair", "prepare", "segment", "explain", "export", "setup",
-                                "verify", "dry-run", "cell-sim", "dispatch", "schema"}) {
+    for (const char* command : {"sample", "inspect", "repair", "prepare", "segment", "explain", "guide", "export",
+                                "setup", "verify", "dry-run", "cell-sim", "dispatch", "schema"}) {
         const program::Ended help = program::run({command, "--help"}, {folder.path});
-        for (const char* option : {"--json", "--quiet", "--timings", "--threads"}) {
+        for (const char* option : {"--json", "--quiet", "--progress", "--timings", "--threads"}) {
             EXPECT_NE(help.out.find(option), std::string::npos) << command << " " << option;
         }
     }
