@@ -112,8 +112,7 @@ bool is_plain_terminal() {
     return isatty(STDERR_FILENO) != 0 && (term == nullptr || std::strcmp(term, "dumb") != 0);
 }
 
-}  // namespace
-
+// As time_left() says; nothing where that is empty.
 std::optional<double> time_left_s(std::size_t done, std::size_t total, double elapsed_s) {
     constexpr double max_s = 99 * 3600;
     if (elapsed_s < 1 || done == 0 || done >= total) return {};
@@ -121,6 +120,8 @@ std::optional<double> time_left_s(std::size_t done, std::size_t total, double el
     if (left_s > max_s) return {};
     return left_s;
 }
+
+}  // namespace
 
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
     const std::optional<double> left_s = time_left_s(done, total, elapsed_s);

@@ -21,11 +21,9 @@
 
 namespace qchopper {
 
-// The seconds that are left, of work whose items take the same time each. Nothing in the first second, where `total` is
-// not known (0), before the first item is done, after the last one, and for more than 99 hours. Precondition: elapsed_s
-// >= 0.
-std::optional<double> time_left_s(std::size_t done, std::size_t total, double elapsed_s);
-// ", about 12 s left", or empty.
+// ", about 12 s left", for work whose items take the same time each. Empty in the first second, where `total` is not
+// known (0), before the first item is done, after the last one, and for more than 99 hours. Precondition: elapsed_s >=
+// 0.
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s);
 
 // "2,351 of 10,560 planes evaluated"; of per cent the total is no news: "23 % of the job".
