@@ -29,6 +29,9 @@ class RequestHandler {
     SegmentAnswer answer() {
         const Project before = project_.project();
         if (request_.weights) change_weights();
+        if (request_.tried_weights) {
+            answer_.tried_weights = request_.tried_weights->over(project_.project().settings.objectives.weights);
+        }
         if (request_.discard) discard_pieces(*request_.discard);
         if (request_.undo || request_.redo) undo_or_redo();
         if (request_.reset) reset();
@@ -109,7 +112,7 @@ class RequestHandler {
         const std::size_t p = piece();
         const Piece& target = project_.segmentation().pieces[p];
         const StageTimer stage(context_, "planes ranked");
-        const std::vector<Ranked> ranked = project_.ranking(p, request_.top, context_);
+        const std::vector<Ranked> ranked = project_.ranking(p, request_.top, context_, answer_.tried_weights);
         Proposal proposal{target.name, target.mesh->triangles.size(), rules_hold_, ranked.size(), {}, request_.top, {}};
         for (const std::size_t i : project_.listed(p, ranked, request_.top)) proposal.listed.push_back(ranked[i]);
         if (proposal.listed.empty()) refuse("No plane parts piece " + target.name + ".");
@@ -134,7 +137,15 @@ class RequestHandler {
     void accept() {
         const std::size_t p = piece();
         const std::vector<Ranked> ranked = project_.ranking(p, *request_.accept, context_);
-        cut(p, ranked, place(p, ranked, *request_.accept));
+        const std::size_t k = place(p, ranked, *request_.accept);
+        if (request_.expected_plane && ranked[k].plane != *request_.expected_plane) {
+            return refuse("Another plane stands at place " + std::to_string(*request_.accept) +
+                          " of the ranking of piece " + project_.segmentation().pieces[p].name + ": normal " +
+                          significant(ranked[k].plane.normal.x, 17) + ", " + significant(ranked[k].plane.normal.y, 17) +
+                          ", " + significant(ranked[k].plane.normal.z, 17) + ", offset " +
+                          significant(ranked[k].plane.offset, 17) + " mm. Nothing was cut.");
+        }
+        cut(p, ranked, k);
     }
 
     void cut_by_plane() {
@@ -177,11 +188,11 @@ class RequestHandler {
         Preview preview;
         preview.piece = target.name;
         if (const auto* k = std::get_if<std::size_t>(&*request_.preview)) {
-            const std::vector<Ranked> ranked = project_.ranking(p, *k, context_);
+            const std::vector<Ranked> ranked = project_.ranking(p, *k, context_, answer_.tried_weights);
             preview.plane = ranked[place(p, ranked, *k)];
         } else {
             const Plane plane = std::get<Plane>(*request_.preview);
-            const auto own = project_.own_plane(p, plane, context_);
+            const auto own = project_.own_plane(p, plane, context_, answer_.tried_weights);
             if (!own) return refuse_plane(p, plane);
             preview.plane = *own;
         }

@@ -31,6 +31,7 @@ struct SearchRequest {
 struct ProjectRequest {
     bool propose = false;                                     // list the best planes
     std::optional<std::size_t> accept;                        // a place in the ranking, from 1
+    std::optional<Plane> expected_plane;                      // the accepted place must hold it, bit for bit
     std::optional<Plane> plane;                               // to cut by
     std::optional<std::variant<std::size_t, Plane>> preview;  // a place in the ranking, or a plane
     std::optional<DiscardRequest> discard;                    // pieces
@@ -40,10 +41,11 @@ struct ProjectRequest {
     std::optional<SearchRequest> search;
     std::optional<std::filesystem::path> plan;  // to write
     // Of any request.
-    std::optional<GivenWeights> weights;  // a decision that is made first
-    std::optional<std::string> piece;     // to be cut next; nothing: the one that the rules choose
-    std::size_t top = 10;                 // so many planes are proposed
-    bool write_pieces = false;            // the pieces, after each decision
+    std::optional<GivenWeights> weights;        // a decision that is made first
+    std::optional<GivenWeights> tried_weights;  // in place of those in force, of a proposal or preview; not kept
+    std::optional<std::string> piece;           // to be cut next; nothing: the one that the rules choose
+    std::size_t top = 10;                       // so many planes are proposed
+    bool write_pieces = false;                  // the pieces, after each decision
 };
 
 // The ranking of one piece.
@@ -73,6 +75,7 @@ struct SegmentAnswer {
     bool is_demand_met = true;          // false: the last note states why
     std::optional<Proposal> proposal;
     std::optional<Preview> preview;
+    std::optional<Weights> tried_weights;       // by which these are ranked; nothing: by those in force
     std::optional<std::filesystem::path> plan;  // that was written
     // The project afterwards (segment_project.h); decide() leaves these as they are.
     bool is_project_made = true;  // false: a plan does not fit the scan, and nothing is on disk
@@ -83,9 +86,11 @@ struct SegmentAnswer {
     std::shared_ptr<const StressedModel> stress;     // null: structure has no weight
 };
 
-// Does what is asked. Precondition: the caller holds the lock of the project. Throws InputError: (use) for what this
-// project does not have: a piece of that name, a place in the ranking, a stop rule; (config) for a wrong cell file,
-// before anything is decided; (create) for a plan in place of another file.
+// Does what is asked. Tried weights change nothing: proposal and preview are those that the same request makes after
+// these weights were decided (tests/app/engine/open_project_test.cpp). Precondition: the caller holds the lock of the
+// project. Throws InputError: (use) for what this project does not have: a piece of that name, a place in the ranking,
+// a stop rule, or terms for tried weights; (config) for a wrong cell file, before anything is decided; (create) for a
+// plan in place of another file.
 SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const ProjectContext& context);
 
 }  // namespace qchopper

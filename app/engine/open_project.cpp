@@ -162,10 +162,22 @@ OpenProject::Next OpenProject::next(const PieceChecks& checks) {
     return next;
 }
 
-std::vector<Ranked> OpenProject::ranking(std::size_t piece, std::size_t best, const Context& context) {
+SearchSettings OpenProject::settings_with(const std::optional<Weights>& tried) const {
+    SearchSettings settings = project_.settings;
+    if (!tried) return settings;
+    settings.objectives.weights = *tried;
+    if (settings.needs_same(project_.settings)) return settings;
+    throw InputError(InputFault::use,
+                     "these weights count terms that are not known of this project's pieces, or none of some that are",
+                     "make them those of the project, which undo takes back");
+}
+
+std::vector<Ranked> OpenProject::ranking(std::size_t piece, std::size_t best, const Context& context,
+                                         const std::optional<Weights>& tried) {
     constexpr std::size_t with_neighbours = 4;  // a plane that is listed, those beside it, and the refined one
+    const SearchSettings settings = settings_with(tried);
     const StageTimer stage(context, "planes ranked");
-    return rank(segmentation(), piece, project_.settings, cache(), context, with_neighbours * best,
+    return rank(segmentation(), piece, settings, cache(), context, with_neighbours * best,
                 too_large_for(project_.settings, segmentation().pieces[piece]));
 }
 
@@ -177,11 +189,13 @@ BlocksNeeded OpenProject::too_large_for(const SearchSettings& settings, const Pi
     return judge_for(settings, checks(), cache()).too_large_for(piece);
 }
 
-std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {
+std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context,
+                                             const std::optional<Weights>& tried) {
+    const SearchSettings settings = settings_with(tried);
     const std::optional<Candidate> candidate = nudged_off(segmentation().pieces[piece], plane);
     if (!candidate) return std::nullopt;
     const StageTimer stage(context, "planes ranked");
-    return rank_plane(segmentation(), piece, *candidate, project_.settings, cache(), context);
+    return rank_plane(segmentation(), piece, *candidate, settings, cache(), context);
 }
 
 bool OpenProject::misses(std::size_t piece, const Plane& plane) {

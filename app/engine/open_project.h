@@ -99,8 +99,11 @@ class OpenProject {
 
     // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
     // Evaluates those that are not evaluated yet; changes nothing but the cache.
-    // The first `best` that are listed are certain to be so (segment/search/rank_piece.h).
-    std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context);
+    // The first `best` that are listed are certain to be so (segment/search/rank_piece.h). `tried`: weights in place of
+    // those in force. Throws InputError (use) for weights of terms that the project's pieces are not made for
+    // (SearchSettings::needs_same).
+    std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context,
+                                const std::optional<Weights>& tried = {});
     // Of a ranking of the piece the indices of the first `most` planes that are more than one step of the offsets apart
     // (segment/search/rank.h): the places of which an operator takes one.
     std::vector<std::size_t> listed(std::size_t piece, const std::vector<Ranked>& ranked, std::size_t most);
@@ -108,7 +111,8 @@ class OpenProject {
     BlocksNeeded too_large_for(const SearchSettings& settings, const Piece& piece);
     // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
     // fragments. The numbers of its normal and offset are -1.
-    std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
+    std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context,
+                                    const std::optional<Weights>& tried = {});
 
     // Whether a plane misses the piece, or runs so near to its end or to a cut that bounds it that it parts nothing.
     bool misses(std::size_t piece, const Plane& plane);
@@ -202,6 +206,8 @@ class OpenProject {
                                            const std::optional<TimeLimit>& time_limit);
     BeamProgress after_the_search(const Segmentation& segmentation);
     PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
+    // Throws as ranking().
+    SearchSettings settings_with(const std::optional<Weights>& tried) const;
     // Whether it is replaced.
     bool judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
     void replace_cut(const Segmentation& alone, CutReview review);

@@ -60,8 +60,25 @@ std::string shown(const ObjectiveTerm& term, const Terms& values) {
     return term.value == &Terms::unreachable ? percent(value) : fixed(value, term.digits);
 }
 
-std::vector<std::string> proposal_lines(const Proposal& p, const Project& project,
-                                        const std::filesystem::path& folder) {
+// The project with the weights by which proposal and preview are ranked.
+Project ranked_by(const SegmentAnswer& answer) {
+    Project project = answer.project;
+    if (answer.tried_weights) project.settings.objectives.weights = *answer.tried_weights;
+    return project;
+}
+
+// "face_ratio=10,fragility=5", as --weights takes them: those that differ from others.
+std::string weights_word(const Weights& weights, const Weights& others) {
+    std::string word;
+    for (const ObjectiveField& field : all_objectives) {
+        if (weights.*field.weight == others.*field.weight) continue;
+        word += (word.empty() ? "" : ",") + std::string(field.key) + "=" + significant(weights.*field.weight, 17);
+    }
+    return word;
+}
+
+std::vector<std::string> proposal_lines(const Proposal& p, const Project& project, const std::filesystem::path& folder,
+                                        bool is_tried) {
     std::vector<std::string> text;
     text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) +
                    " faces: " + describe_planes(p.candidates, project.settings) + ", best first." +
@@ -90,7 +107,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const Project& projec
     std::string crossing;
     for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
     if (!crossing.empty()) text.push_back(sections_cross(crossing));
-    if (!p.listed.empty()) {
+    if (!p.listed.empty() && !is_tried) {
         text.push_back("Nothing was cut. Take one by: qchopper segment " + shell_word(folder) + " --piece " + p.piece +
                        " --accept K");
     }
@@ -267,8 +284,18 @@ std::vector<std::string> lines(const SegmentAnswer& answer) {
         add(text, discarded_lines(project));
     }
     if (answer.pieces_written) text.push_back("The pieces are in " + (answer.folder / "pieces").string() + ".");
-    if (answer.proposal) add(text, proposal_lines(*answer.proposal, project, answer.folder));
-    if (answer.preview) add(text, preview_lines(*answer.preview, project));
+    const Project by_tried = ranked_by(answer);
+    if (answer.proposal) {
+        add(text, proposal_lines(*answer.proposal, by_tried, answer.folder, answer.tried_weights.has_value()));
+    }
+    if (answer.preview) add(text, preview_lines(*answer.preview, by_tried));
+    if (answer.tried_weights) {
+        const std::string word = weights_word(*answer.tried_weights, project.settings.objectives.weights);
+        text.push_back("By the weights " + describe_weights(*answer.tried_weights) + ". Nothing was cut. " +
+                       (word.empty() ? "They are in force already."
+                                     : "They are not kept; keep them by: qchopper segment " +
+                                           shell_word(answer.folder) + " --weights " + word));
+    }
     if (!answer.proposal && !answer.preview && !answer.plan) add(text, committed_lines(answer));
     return text;
 }
@@ -302,8 +329,9 @@ Document document(const SegmentAnswer& answer) {
     if (answer.stress) json["stress"] = stress_json(*answer.stress);
     if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
-    if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
-    if (answer.preview) json["preview"] = preview_json(*answer.preview, project);
+    if (answer.tried_weights) json["tried_weights"] = json_of(*answer.tried_weights);
+    if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, ranked_by(answer));
+    if (answer.preview) json["preview"] = preview_json(*answer.preview, ranked_by(answer));
     return compose(json);
 }
 

@@ -115,6 +115,8 @@ struct SegmentArguments : ProjectArguments {
     std::optional<std::filesystem::path> plan;      // to write
     std::optional<std::filesystem::path> replayed;  // a plan to replay
     // Options of these.
+    std::optional<std::string> expected_plane;  // nx,ny,nz,d
+    std::optional<std::string> tried_weights;   // as ProjectArguments::weights
     std::optional<std::string> piece;
     std::optional<std::size_t> top;
     bool write_pieces = false;

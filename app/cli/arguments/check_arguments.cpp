@@ -102,6 +102,10 @@ void check_action(const SegmentArguments& a, const Action& action) {
         refuse("--piece has no effect on " + option, "use it with --step, --accept, --plane or --preview");
     }
     if (a.top && !a.step) refuse("--top has no effect on " + option, "use it with --step");
+    if (a.expected_plane && !a.accept) refuse("--expect-plane has no effect on " + option, "use it with --accept");
+    if (a.tried_weights && !a.step && !a.preview) {
+        refuse("--try-weights has no effect on " + option, "use it with --step or --preview; --weights decides");
+    }
     if (a.time_limit_s && !a.goes_on) refuse("--time-limit has no effect on " + option, "use it with --auto");
     std::error_code error;
     if (a.weights && !action.takes_weights && std::filesystem::is_directory(a.input, error)) {

@@ -159,6 +159,8 @@ ProjectRequest request_of(const SegmentArguments& a) {
     }
     request.plan = a.plan;
     if (a.weights) request.weights = weights_from(*a.weights);
+    if (a.tried_weights) request.tried_weights = weights_from(*a.tried_weights);
+    if (a.expected_plane) request.expected_plane = plane_from(*a.expected_plane);
     request.piece = a.piece;
     request.top = a.top.value_or(request.top);
     request.write_pieces = a.write_pieces;

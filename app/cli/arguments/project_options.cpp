@@ -259,6 +259,14 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
         ->check(number_between(1, 1e6, "a count of planes"));
     c->add_option("--accept", segment.accept, "cut by the K-th plane of that ranking")
         ->check(number_between(1, 1e6, "a place in the ranking"));
+    c->add_option(
+         "--expect-plane", segment.expected_plane,
+         "with --accept: cut only if the K-th plane is this one to the last digit, nx,ny,nz,d of --step --json")
+        ->check(read_by(plane_from, "not nx,ny,nz,d"));
+    c->add_option("--try-weights", segment.tried_weights,
+                  "with --step or --preview: rank by these weights, as --weights takes them, and keep those in force")
+        ->check(
+            read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
     c->add_option("--plane", segment.plane,
                   "cut by nx,ny,nz,d: a direction of any length, and the distance along it in mm, as --step shows")
         ->check(read_by(plane_from, "not nx,ny,nz,d"));

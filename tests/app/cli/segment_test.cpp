@@ -110,6 +110,36 @@ TEST_F(Segment, ChangesTheRankingWithTheWeights) {
     EXPECT_EQ(answer({"p.qch", "--undo"})["weights"], begun["weights"]);
 }
 
+TEST_F(Segment, TriesWeightsAndCutsOnlyThePlaneThatIsExpected) {
+    const std::string before = program::bytes_in(folder.path / "p.qch" / "project.json");
+    const std::string weights = "face_ratio=0,fragility=0,piece_count=0,undercut=1";
+    const json tried = answer({"p.qch", "--step", "--try-weights", weights});
+    EXPECT_EQ(tried["tried_weights"]["undercut"], 1);
+    EXPECT_EQ(tried["weights"], begun["weights"]);
+    const program::Ended said = run({"segment", "p.qch", "--step", "--try-weights", weights});
+    EXPECT_NE(said.out.find("keep them by: qchopper segment p.qch --weights"), std::string::npos) << said.out;
+    EXPECT_EQ(said.out.find("--accept"), std::string::npos) << "its places are those of another ranking";
+    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);
+    const auto plane_of = [](const json& plane) {
+        std::string text;
+        for (const json& x : plane["normal"]) text += x.dump() + ",";
+        return text + plane["offset_mm"].dump();
+    };
+    const std::string first = plane_of(tried["proposal"]["planes"][0]);
+    const program::Ended other = run({"segment", "p.qch", "--accept", "1", "--expect-plane", first});
+    EXPECT_EQ(other.code, 1) << other.err;
+    EXPECT_NE(other.out.find("Another plane stands at place 1"), std::string::npos) << other.out;
+    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);
+    answer({"p.qch", "--weights", weights});
+    EXPECT_EQ(answer({"p.qch", "--step"})["proposal"], tried["proposal"]);
+    EXPECT_EQ(answer({"p.qch", "--accept", "1", "--expect-plane", first})["cuts"].size(), 1U);
+    for (const program::Arguments& wrong : {program::Arguments{"segment", "p.qch", "--undo", "--try-weights", weights},
+                                            {"segment", "p.qch", "--step", "--expect-plane", first},
+                                            {"segment", "p.qch", "--step", "--try-weights", "nonsense=1"}}) {
+        EXPECT_EQ(run(wrong).code, 64) << wrong[2];
+    }
+}
+
 TEST_F(Segment, WritesAPlanThatMakesTheSamePiecesAgain) {
     answer({"p.qch", "--accept", "1"});
     const json cut = answer({"p.qch", "--accept", "2"});

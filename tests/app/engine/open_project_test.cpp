@@ -477,6 +477,34 @@ TEST_F(OpenedProject, ABeamThatIsNotOfItsDecisionsIsRefused) {
     }
 }
 
+TEST_F(OpenedProject, TriedWeightsRankAsTheyWouldAfterTheyWereDecided) {
+    const Weights tried{1, 2, 0, 90};
+    const std::string before = bytes("project.json");
+    std::vector<Ranked> by_tried;
+    {
+        OpenProject project = open();
+        const std::vector<Ranked> in_force = project.ranking(0, 5, {});
+        by_tried = project.ranking(0, 5, {}, tried);
+        EXPECT_NE(by_tried, in_force);
+        EXPECT_EQ(project.ranking(0, 5, {}), in_force) << "nothing of it stays";
+        EXPECT_EQ(project.project(), load_project(folder));
+        const Plane plane{{1, 0, 0}, bounds(*project.segmentation().pieces[0].mesh).centre().x};
+        EXPECT_NE(project.own_plane(0, plane, {}, tried)->terms.total, project.own_plane(0, plane, {})->terms.total);
+    }
+    EXPECT_EQ(bytes("project.json"), before);
+    OpenProject decided = open();
+    decided.decide_weights(tried);
+    EXPECT_EQ(decided.ranking(0, 5, {}), by_tried);
+}
+
+TEST_F(OpenedProject, TriedWeightsOfTermsThatAreNotKnownAreRefused) {
+    OpenProject project = open();
+    Weights tried = project.project().settings.objectives.weights;
+    tried.unreachable = 10;  // the pieces have no samples
+    EXPECT_THROW(project.ranking(0, 1, {}, tried), InputError);
+    EXPECT_EQ(project.project(), load_project(folder));
+}
+
 TEST_F(OpenedProject, TheScanIsTakenInOnlyWhenSomethingAsks) {
     int taken = 0;
     OpenProject project(folder, load_project(folder), [&] {
