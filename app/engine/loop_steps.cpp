@@ -144,6 +144,7 @@ std::optional<SearchEnd> OpenProject::cut_again(const OnDecision& on_decision, c
 PieceChecks OpenProject::checks_by_setups(const SearchSettings& settings, const Context& context) {
     PieceChecks checks = this->checks();
     checks.unreachable = [this](const Piece& piece) { return setups()->left_by_setup(piece); };
+    checks.work_out = [this](std::span<const Piece> pieces, const AskedOfPieces&) { setups()->place(pieces, {}); };
     checks.planes_on_trial = [this, &settings, &context](const Segmentation& s, std::size_t piece,
                                                          std::vector<Ranked> ranked) {
         return planes_by_setups(s, piece, std::move(ranked), settings, *setups(), cache(), context);

@@ -140,6 +140,9 @@ PieceChecks OpenProject::checks() {
         const StageTimer stage(timings, "setups of pieces that fit");
         return setups->is_machinable(piece);
     };
+    checks.work_out = [setups, timings = context_.timings](std::span<const Piece> pieces, const AskedOfPieces& asked) {
+        setups->work_out(pieces, asked, timings);
+    };
     checks.min_gain_mm2 = setups->min_gain_mm2();
     checks.seam_width_mm = seam_width_mm;
     checks.low_blocks_needed = [blocks = low_usable_blocks(setups->with_shortest_tools())](Vec3 size) {

@@ -25,6 +25,7 @@
 #include "app/jobs/unreachable_of.h"
 #include "base/parallel.h"
 #include "base/shared_progress.h"
+#include "base/timings.h"
 #include "cam/cell/job_tools.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/limiting_tools.h"
@@ -180,13 +181,35 @@ void Setups::keep_only(std::span<const Piece> pieces) {
     }
 }
 
-bool Setups::fits(const Piece& piece) {
-    return once(stages_of(piece).fits, [&] {
-        const std::vector<ToolNumbers> sets = tool_sets_for(piece);
-        return std::any_of(sets.begin(), sets.end(), [&](const ToolNumbers& tools) {
-            return fits_cell_and_machine(piece, with_tools(cell_, tools));
-        });
+bool Setups::find_whether_fits(const Piece& piece) const {
+    const std::vector<ToolNumbers> sets = tool_sets_for(piece);
+    return std::any_of(sets.begin(), sets.end(), [&](const ToolNumbers& tools) {
+        return fits_cell_and_machine(piece, with_tools(cell_, tools));
     });
+}
+
+bool Setups::fits(const Piece& piece) {
+    return once(stages_of(piece).fits, [&] { return find_whether_fits(piece); });
+}
+
+// Functions that are called in parallel find the stages of their piece made, and change no others.
+void Setups::work_out(std::span<const Piece> pieces, const AskedOfPieces& asked, Timings* timings) {
+    std::vector<Piece> left(pieces.begin(), pieces.end());
+    StageTimer stage(timings, "blocks chosen");
+    if (asked.fits_cell) {
+        compute(&Stages::fits, {}, left, {}, [&](const Piece& p, const Stages&) { return find_whether_fits(p); });
+        std::erase_if(left, [&](const Piece& piece) { return !fits(piece); });
+    }
+    stage.next("setups of pieces that fit");
+    if (asked.is_machinable) {
+        compute(&Stages::is_machinable, {}, left, {},
+                [&](const Piece& p, const Stages&) { return find_whether_machinable(p); });
+        std::erase_if(left, [&](const Piece& piece) { return !is_machinable(piece); });
+    }
+    stage.next("surface out of reach");
+    if (asked.unreachable) {
+        compute(&Stages::sampled, {}, left, {}, [&](const Piece& p, const Stages&) { return sampled_of(p); });
+    }
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {

@@ -90,6 +90,8 @@ class Setups {
     // higher than the longest tool, or hardly any more of the surface is out of reach than without holder. A piece that
     // is shorter than that tool always is, because cutting it further is no remedy. True in a cell without a machine.
     bool is_machinable(const Piece& piece);
+    // What the stop rules will ask of several pieces, on several threads. Precondition: their meshes are different.
+    void work_out(std::span<const Piece> pieces, const AskedOfPieces& asked, Timings* timings);
     // From now on it is not, because the arm does not follow the toolpath of a piece that only long tools reach (the
     // shortest set of tools is not that of its setup). False where that is known, and for any other piece.
     bool refuse_with_long_tools(const Piece& piece);
@@ -127,6 +129,7 @@ class Setups {
     PlacedSetup placed_with(const MappedSetup& mapped, const Piece& piece, const Context& context) const;
     PlacedSetup placed_of(const Piece& piece, const MappedSetup& mapped, const Context& context) const;
     UnreachableSurface sampled_of(const Piece& piece) const;
+    bool find_whether_fits(const Piece& piece) const;
     bool find_whether_machinable(const Piece& piece);
 
     Cell cell_;

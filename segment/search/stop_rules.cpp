@@ -68,7 +68,7 @@ StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(con
 
 StopJudge::PieceRule StopJudge::cell_rule() const {
     const PieceChecks& checks = checks_;
-    if (!is_size_first_ || !checks.is_machinable) {
+    if (!asks_machine()) {
         return {checks.fits_cell, [](const Piece&) { return "it does not fit the cell"; },
                 [blocks = checks.blocks_needed](const Piece&) { return blocks; }};
     }
@@ -78,6 +78,19 @@ StopJudge::PieceRule StopJudge::cell_rule() const {
                                            : "it does not fit the cell";
             },
             [checks](const Piece& p) { return checks.fits_cell(p) ? checks.low_blocks_needed : checks.blocks_needed; }};
+}
+
+// Of several pieces that are not known yet, where no rule comes before those of the cell.
+void StopJudge::work_out(const std::vector<Piece>& pieces) const {
+    const bool asks_cell = rules_.fits_cell && checks_.fits_cell;
+    if (!checks_.work_out || piece_rules_.size() != (asks_cell ? 1U : 0U)) return;
+    std::vector<Piece> unknown;
+    for (const Piece& piece : pieces) {
+        const auto known = verdicts_.find(piece.mesh.get());
+        if (known == verdicts_.end() || known->second.mesh.expired()) unknown.push_back(piece);
+    }
+    if (unknown.size() < 2) return;
+    checks_.work_out(unknown, {asks_cell, asks_cell && asks_machine(), is_access_limited()});
 }
 
 StopJudge::Verdict& StopJudge::verdict(const Piece& piece) {
@@ -138,6 +151,7 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
     const int cuts = static_cast<int>(segmentation.cuts.size());
     const bool has_cuts = rules_.min_cuts && cuts >= *rules_.min_cuts;
     const std::size_t count = segmentation.pieces.size();
+    work_out(segmentation.pieces);
     std::vector<bool> failing(count, false);           // per piece: it breaks a rule
     std::vector<bool> only_unreachable(count, false);  // per piece: of its rules it breaks max_unreachable only
     // Per rule: some piece breaks it. The last one is max_unreachable.

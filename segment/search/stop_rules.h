@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,13 @@ using BlocksNeeded = std::function<double(Vec3 box_size)>;
 using PlanesOnTrial =
     std::function<std::vector<Ranked>(const Segmentation&, std::size_t piece, std::vector<Ranked> ranked)>;
 
+// Which functions of PieceChecks the rules ask, each of the pieces that pass the one before.
+struct AskedOfPieces {
+    bool fits_cell = false;
+    bool is_machinable = false;
+    bool unreachable = false;
+};
+
 // What the rules ask of other modules. The rule of a function that is empty is left out; without blocks_needed a piece
 // that does not fit the cell is cut as any other.
 struct PieceChecks {
@@ -71,6 +79,9 @@ struct PieceChecks {
     // finished by hand, as surface that no tool reaches is.
     double seam_width_mm = 0;
     PlanesOnTrial planes_on_trial = {};  // of a piece that is cut on trial; empty: the ranking as it is
+    // Works out on several threads what will be asked of these pieces, which have different meshes, so that the answers
+    // are known then. Empty: each is worked out when it is asked.
+    std::function<void(std::span<const Piece>, const AskedOfPieces&)> work_out = {};
 };
 
 // Whether the segmentation is finished, and if not, the piece that is cut next: of those that do not satisfy the rules
@@ -125,6 +136,8 @@ class StopJudge {
         std::function<BlocksNeeded(const Piece&)> blocks = {};
     };
     PieceRule cell_rule() const;
+    bool asks_machine() const { return is_size_first_ && checks_.is_machinable; }
+    void work_out(const std::vector<Piece>& pieces) const;
     Verdict& verdict(const Piece& piece);
     bool is_access_limited() const { return rules_.max_unreachable && checks_.unreachable; }
     bool is_out_of_reach(const Piece& piece) { return is_more_than(unreachable(piece), *rules_.max_unreachable); }
