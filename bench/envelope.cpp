@@ -158,7 +158,7 @@ void measure_project(std::size_t faces, Figures& figures) {
         });
         const double asking = best_of(1, cpu_s, [&] {
             return std::count_if(pieces.pieces.begin(), pieces.pieces.end(),
-                                 [&](const Piece& p) { return fits_cell_and_machine(p, cell); });
+                                 [&](const Piece& p) { return fits_cell_and_machine(p, cell, bases_of(p)); });
         });
         figures.record(
             name, "pieces, of them in the cell by boxes, and held",

@@ -127,6 +127,17 @@ Setups::Stages& Setups::stages_of(const Piece& piece) {
     return stages;
 }
 
+Setups::Stages& Setups::known_stages_of(const Piece& piece) {
+    Stages& stages = stages_of(piece);
+    if (!stages.bases) stages.bases = std::make_shared<const std::vector<PieceBase>>(bases_of(piece));
+    return stages;
+}
+
+std::shared_ptr<const std::vector<PieceBase>> Setups::known_bases(const Piece& piece) const {
+    const auto stages = stages_.find(piece.mesh);
+    return stages == stages_.end() ? nullptr : stages->second.bases;
+}
+
 template <class Stage, class Make>
 void Setups::compute(std::optional<Stage> Stages::*stage, const std::string& what, std::span<const Piece> pieces,
                      const Context& context, const Make& make) {
@@ -139,6 +150,7 @@ void Setups::compute(std::optional<Stage> Stages::*stage, const std::string& wha
     parallel_for(0, missing.size(), [&](std::size_t i) {
         context.check_cancelled();
         const auto [piece, stages] = missing[i];
+        known_stages_of(*piece);  // which are made
         stages->*stage = make(*piece, *stages);
         progress.add(1);
     });
@@ -158,7 +170,7 @@ void Setups::place(std::span<const Piece> pieces, const Context& context) {
 }
 
 const MappedSetup& Setups::mapped(const Piece& piece) {
-    return once(stages_of(piece).mapped, [&] { return mapped_of(piece); });
+    return once(known_stages_of(piece).mapped, [&] { return mapped_of(piece); });
 }
 
 const PlacedSetup& Setups::placed(const Piece& piece) {
@@ -181,15 +193,16 @@ void Setups::keep_only(std::span<const Piece> pieces) {
     }
 }
 
+// Precondition: its bases are known.
 bool Setups::find_whether_fits(const Piece& piece) const {
     const std::vector<ToolNumbers> sets = tool_sets_for(piece);
     return std::any_of(sets.begin(), sets.end(), [&](const ToolNumbers& tools) {
-        return fits_cell_and_machine(piece, with_tools(cell_, tools));
+        return fits_cell_and_machine(piece, with_tools(cell_, tools), *known_bases(piece));
     });
 }
 
 bool Setups::fits(const Piece& piece) {
-    return once(stages_of(piece).fits, [&] { return find_whether_fits(piece); });
+    return once(known_stages_of(piece).fits, [&] { return find_whether_fits(piece); });
 }
 
 // Functions that are called in parallel find the stages of their piece made, and change no others.
@@ -213,7 +226,7 @@ void Setups::work_out(std::span<const Piece> pieces, const AskedOfPieces& asked,
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {
-    return once(stages_of(piece).sampled, [&] { return sampled_of(piece); });
+    return once(known_stages_of(piece).sampled, [&] { return sampled_of(piece); });
 }
 
 UnreachableSurface Setups::unreachable_without_holder(const Piece& piece) {
@@ -279,6 +292,7 @@ double Setups::min_gain_mm2() const {
 SetupOptions Setups::options_for(const Piece& piece) const {
     SetupOptions options;
     options.count_narrow = count_narrow_;
+    options.bases = known_bases(piece);
     const SetupOrder* order = order_for(piece);
     if (order == nullptr) return options;
     options.base = order->base;

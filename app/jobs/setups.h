@@ -111,8 +111,13 @@ class Setups {
         std::optional<PlacedSetup> placed;
         std::string name;  // of the piece
         std::optional<bool> is_machinable;
+        std::shared_ptr<const std::vector<PieceBase>> bases;  // null: not asked yet
     };
     Stages& stages_of(const Piece& piece);
+    // With its bases.
+    Stages& known_stages_of(const Piece& piece);
+    // Null where they are not known.
+    std::shared_ptr<const std::vector<PieceBase>> known_bases(const Piece& piece) const;
     template <class Stage, class Make>
     void compute(std::optional<Stage> Stages::*stage, const std::string& what, std::span<const Piece> pieces,
                  const Context& context, const Make& make);

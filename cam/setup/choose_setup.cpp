@@ -91,7 +91,11 @@ double too_narrow_mm2(const MappedAccess& mapped, const SurfaceSamples& samples,
 class Choice {
  public:
     Choice(const Piece& piece, const Cell& cell, const SetupOptions& options)
-        : piece_(piece), cell_(cell), options_(options), tools_(limiting_tools(cell)), bases_(bases_of(piece)) {
+        : piece_(piece),
+          cell_(cell),
+          options_(options),
+          tools_(limiting_tools(cell)),
+          bases_(options.bases ? *options.bases : bases_of(piece)) {
         allowed_mm2_ = allowed_mm2(cell);
         whole_mm2_ = area_mm2(*piece.mesh);
         const std::vector<CapPoints> caps = caps_to_saw(*piece.mesh, cell);
@@ -307,8 +311,7 @@ bool fits_cell(const Piece& piece, const Cell& cell) {
     });
 }
 
-bool fits_cell_and_machine(const Piece& piece, const Cell& cell) {
-    const std::vector<PieceBase> bases = bases_of(piece);
+bool fits_cell_and_machine(const Piece& piece, const Cell& cell, std::span<const PieceBase> bases) {
     const std::vector<CapPoints> caps = caps_to_saw(*piece.mesh, cell);
     return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
         Setup setup = lay_out(piece, base, cell, caps);

@@ -7,12 +7,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cam/cell/cell.h"
 #include "cam/setup/mapped_access.h"
 #include "cam/setup/setup.h"
+#include "segment/access/piece_access.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
@@ -34,6 +37,8 @@ struct SetupOptions {
     // Directions, in piece coordinates, that may be chosen beside straight up, of those that the cell holds; empty:
     // all.
     std::function<bool(Vec3)> is_allowed = {};
+    // bases_of(piece), where it is known; null: it is worked out.
+    std::shared_ptr<const std::vector<PieceBase>> bases = {};
 };
 
 // All ways to lay a piece, best first.
@@ -61,7 +66,7 @@ bool fits_cell(const Piece& piece, const Cell& cell);
 // Whether in addition, for one of these ways, the machine holds the extreme poses of milling straight from above, along
 // which every setup is milled, without a collision: the stop rule where the arm is known. Further directions are not
 // chosen yet when it is asked; reachable_directions() asks the arm for each of them. The same as fits_cell() in a cell
-// without a machine. Throws as height_field() does.
-bool fits_cell_and_machine(const Piece& piece, const Cell& cell);
+// without a machine. `bases` are bases_of(piece). Throws as height_field() does.
+bool fits_cell_and_machine(const Piece& piece, const Cell& cell, std::span<const PieceBase> bases);
 
 }  // namespace qchopper

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/parallel.h"
 #include "segment/cut/cut_evaluation.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
@@ -29,18 +30,6 @@ std::vector<PieceBase> sides_of(const Piece& piece) {
         }
     }
     return sides;
-}
-
-// `projected_mm2(up)`: the projected area of the piece.
-template <class Projected>
-std::vector<PieceBase> caps_that_carry(std::span<const OwnedCap> caps, const Projected& projected_mm2) {
-    std::vector<PieceBase> bases;
-    for (const OwnedCap& cap : caps) {
-        const TiltBase base = lying_on(cap);
-        const double projected = projected_mm2(base.up);
-        if (carries(cap.area_mm2, projected)) bases.push_back({cap.cut, base, cap.area_mm2, projected});
-    }
-    return bases;
 }
 
 // The directions of the scan that some base allows, and the ups of all bases, so that no ray is cast twice for them.
@@ -117,19 +106,28 @@ PieceAccess piece_access(const Piece& piece, std::span<const PieceBase> bases, c
 }
 
 std::vector<PieceBase> bases_of(const Piece& piece) {
-    const auto projected = [&](Vec3 up) { return projected_area_mm2(*piece.mesh, up); };
-    std::vector<PieceBase> bases = caps_that_carry(owned_caps(piece), projected);
-    if (!bases.empty()) return bases;
-    bases = sides_of(piece);
-    for (PieceBase& side : bases) side.projected_mm2 = projected(side.base.up);
-    return bases;
+    const auto project = [&](std::vector<PieceBase> bases) {
+        parallel_for(0, bases.size(), [&](std::size_t i) {
+            bases[i].projected_mm2 = projected_area_mm2(*piece.mesh, bases[i].base.up);
+        });
+        return bases;
+    };
+    std::vector<PieceBase> caps;
+    for (const OwnedCap& cap : owned_caps(piece)) caps.push_back({cap.cut, lying_on(cap), cap.area_mm2, 0});
+    caps = project(std::move(caps));
+    std::erase_if(caps, [](const PieceBase& base) { return !carries(base.base_mm2, base.projected_mm2); });
+    return caps.empty() ? project(sides_of(piece)) : caps;
 }
 
 AreaOnBase area_on_best_base(const Piece& piece, double tilt_deg) {
     assert(piece.samples);
     const JudgedPiece judged = piece.samples->judged();
-    std::vector<PieceBase> bases =
-        caps_that_carry(judged.caps, [&](Vec3 up) { return projected_area_mm2(judged, up); });
+    std::vector<PieceBase> bases;
+    for (const OwnedCap& cap : judged.caps) {
+        const TiltBase base = lying_on(cap);
+        const double projected = projected_area_mm2(judged, base.up);
+        if (carries(cap.area_mm2, projected)) bases.push_back({cap.cut, base, cap.area_mm2, projected});
+    }
     if (bases.empty()) bases = sides_of(piece);
     std::optional<AreaOnBase> best;
     for (const PieceBase& base : bases) {

@@ -299,14 +299,15 @@ TEST(ChooseSetup, TheMachineMustHoldWhatFitsByBoxes) {
     Cell arm = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
     const Piece piece = standing_box({0, 0, 0}, {200, 150, 100}, 0);
     EXPECT_TRUE(fits_cell(piece, arm));
-    EXPECT_TRUE(fits_cell_and_machine(piece, arm));
+    EXPECT_TRUE(fits_cell_and_machine(piece, arm, bases_of(piece)));
     const Cell before = arm;
     arm.machine->obstacles.push_back({"beam", {{-300, -1500, 1200}, {1600, 1500, 1700}}});
     EXPECT_TRUE(fits_cell(piece, arm));
-    EXPECT_FALSE(fits_cell_and_machine(piece, arm));
+    EXPECT_FALSE(fits_cell_and_machine(piece, arm, bases_of(piece)));
     const Piece large = standing_box({0, 0, 0}, {1200, 1150, 100}, 0);
-    EXPECT_FALSE(fits_cell_and_machine(large, before));
-    EXPECT_TRUE(fits_cell_and_machine(standing_box({0, 0, 0}, {90, 50, 45}, 0), cell()));  // boxes only
+    EXPECT_FALSE(fits_cell_and_machine(large, before, bases_of(large)));
+    const Piece small = standing_box({0, 0, 0}, {90, 50, 45}, 0);
+    EXPECT_TRUE(fits_cell_and_machine(small, cell(), bases_of(small)));  // boxes only
 }
 
 // Height fields know of the holder, samples do not. One that is held may leave up to the cell's limit. Blocks of this
