@@ -58,6 +58,26 @@ TEST(Setups, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeMilled) {
     EXPECT_TRUE(setups.is_machinable(frame(low - 1)));
 }
 
+// Pieces of which one does not fit, one cannot be milled, and the others leave different areas out of reach.
+TEST(Setups, SeveralPiecesWorkedOutTogetherAreAsEachAlone) {
+    const std::vector<Piece> pieces{frame(400), test_pieces::standing_box({0, 0, 0}, {3000, 3000, 3000}, 1), frame(100),
+                                    test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1)};
+    Setups alone(cell_named("kr60-ha"));
+    Setups together(cell_named("kr60-ha"));
+    together.work_out(pieces, {true, true, true}, nullptr);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        EXPECT_EQ(together.fits(piece), alone.fits(piece)) << i;
+        if (!alone.fits(piece)) continue;
+        EXPECT_EQ(together.is_machinable(piece), alone.is_machinable(piece)) << i;
+        EXPECT_EQ(together.mapped(piece).setup(), alone.mapped(piece).setup()) << i;
+        const UnreachableSurface known = together.unreachable(piece);
+        const UnreachableSurface asked = alone.unreachable(piece);
+        EXPECT_EQ(known.mm2, asked.mm2) << i;
+        EXPECT_EQ(known.share, asked.share) << i;
+    }
+}
+
 TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeMilled) {
     Setups setups(with_short_tools(cell_named("kr60-ha")));
     const Piece pillar = test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1);

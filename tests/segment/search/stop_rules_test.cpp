@@ -36,6 +36,31 @@ TEST(StopRules, EachRuleNamesThePieceThatBreaksIt) {
     EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
 }
 
+TEST(StopRules, SeveralPiecesThatAreNewAreWorkedOutTogether) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.fits_cell = true;
+    rules.max_unreachable = 0.1;
+    PieceChecks checks;
+    checks.fits_cell = [](const Piece& p) { return p.name == "A"; };
+    checks.unreachable = [](const Piece&) { return UnreachableSurface{5, 0.05, 0}; };
+    std::vector<std::vector<std::string>> calls;
+    checks.work_out = [&](std::span<const Piece> pieces, const AskedOfPieces& asked) {
+        EXPECT_TRUE(asked.fits_cell && asked.unreachable);
+        EXPECT_FALSE(asked.is_machinable) << "asked where a priority is given only";
+        calls.emplace_back();
+        for (const Piece& piece : pieces) calls.back().push_back(piece.name);
+    };
+    StopJudge judge(rules, checks, {});
+    EXPECT_EQ(judge.next(s, {}).piece, 1U);
+    EXPECT_EQ(judge.next(s, {}).piece, 1U) << "known pieces are not worked out again";
+    EXPECT_EQ(calls, (std::vector<std::vector<std::string>>{{"A", "B"}}));
+    calls.clear();
+    rules.max_faces = 5;  // breaks first: the cell might not be asked
+    EXPECT_TRUE(StopJudge(rules, checks, {}).next(s, {}).piece);
+    EXPECT_TRUE(calls.empty());
+}
+
 TEST(StopRules, AnyStopsAtTheFirstRuleThatHoldsAllWaitsForEach) {
     const Segmentation s = two_boxes();
     StopRules rules;
