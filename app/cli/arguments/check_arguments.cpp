@@ -129,6 +129,11 @@ void check_project(const SegmentArguments& a) {
 }
 
 void check_scan(const SegmentArguments& a, const Action& action) {
+    std::error_code error;
+    if (!action.takes_scan && !std::filesystem::exists(a.input, error)) {
+        throw InputError(InputFault::missing, "there is no project " + a.input.string(),
+                         "name a folder that prepare has made");
+    }
     if (!action.takes_scan) {
         refuse(a.input.string() + " is a scan: " + action.option + " needs a project",
                "make one first: qchopper segment " + shell_word(a.input) + " --units UNIT -o NAME.qch");

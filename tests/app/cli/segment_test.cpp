@@ -367,6 +367,9 @@ TEST_F(Segment, RefusesWhatDoesNotMakeSenseAndChangesNothing) {
         EXPECT_FALSE(ended.err.empty()) << what;
     }
     EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);
+    const program::Ended nowhere = run({"segment", "none.qch", "--undo"});
+    EXPECT_EQ(nowhere.code, 66);
+    EXPECT_NE(nowhere.err.find("there is no project none.qch"), std::string::npos) << nowhere.err;
 }
 
 }  // namespace
