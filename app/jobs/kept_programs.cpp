@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
-constexpr std::uint32_t version_of_programs = 7;
+constexpr std::uint32_t version_of_programs = 8;
 
 void put(CacheWriter& out, const JobHole& hole) {
     out.put(hole.number);

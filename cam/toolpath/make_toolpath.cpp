@@ -259,8 +259,9 @@ class ToolpathMaker {
         double milled = 0;
         while (!left.passes.empty()) {
             context_.check_cancelled();
-            space.holder_clearance_height = holder_clearance_over(
-                space.centre_stock, body, finishing_gap(setup_, stock_cell_), lowest_of(left.passes));
+            space.holder_clearance_height =
+                holder_clearance_over(space.centre_stock, body, finishing_gap(setup_, stock_cell_),
+                                      std::min(lowest_of(left.passes), runs.end_height()));
             ClippedPasses parts = clipped(left.passes, space, tool);
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);

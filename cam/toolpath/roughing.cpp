@@ -192,9 +192,11 @@ RoughingRuns rough(MillingSpace& space, const CuttingTool& tool, const ToolBody&
     ToolpathLinker runs(space, tool, operation, links);
     for (const double level : heights) {
         context.check_cancelled();
-        // The float of the lowest tip is not above the level.
-        if (space.holder_clearance_height.height.empty() || is_holder_limiting(highest, body, holder_gap, level)) {
-            space.holder_clearance_height = holder_clearance_over(space.stock, body, holder_gap, level);
+        // The level before may have been a lower one: the link from there begins at its height.
+        const double lowest = std::min(level, runs.end_height());
+        // The float of the lowest tip is not above it.
+        if (space.holder_clearance_height.height.empty() || is_holder_limiting(highest, body, holder_gap, lowest)) {
+            space.holder_clearance_height = holder_clearance_over(space.stock, body, holder_gap, lowest);
         }
         runs.add(roughing_passes(levels.region(level), level, operation.stepover));
     }

@@ -68,6 +68,10 @@ class ToolpathLinker {
     // The runs in map coordinates, at most about 650 moves each where a link goes high anyway, never more than 1000.
     std::vector<PathRun> finish();
 
+    // Of the tip where the last pass has ended: the next link begins there, and may lie no lower than that or the next
+    // pass. Infinite before the first pass of a run.
+    double end_height() const { return run_.moves.empty() ? std::numeric_limits<double>::infinity() : at_.z; }
+
     // By all moves so far.
     double removed_mm3() const { return all_removed_mm3_; }
 

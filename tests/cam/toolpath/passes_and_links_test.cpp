@@ -14,7 +14,9 @@
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/pass_order.h"
 #include "cam/toolpath/pass_stretches.h"
+#include "cam/toolpath/roughing.h"
 #include "cam/toolpath/toolpath_linker.h"
+#include "segment/raster/disc_dilation.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 
 namespace qchopper {
@@ -382,6 +384,66 @@ TEST(ToolpathLinker, APassThatAnotherHasMilledIsNotMade) {
     EXPECT_NEAR(cut_length(0.5), 50, 1);
 }
 
+// Roughing goes down as far as the flute cuts and comes back for the levels between. On the way up the spindle passes
+// what it clears at the height where the way ends, not where it begins. Pieces of random boxes in a block of 120 mm.
+TEST(Roughing, TheSpindleStaysClearOfThePieceOnAllWays) {
+    CuttingTool tool;
+    tool.shape = ToolShape::flat;
+    tool.diameter = 10;
+    tool.flute_length = 60;
+    tool.stick_out = 100;
+    const ToolBody body{tool.stick_out, {{44, 200}}};
+    RoughingOptions options;
+    options.deepest = 45;
+    std::mt19937 random(7);
+    for (int i = 0; i < 170; ++i) {
+        Plate plate;
+        HeightField piece = plate.tip;
+        HeightField stock = plate.tip;
+        std::fill(piece.height.begin(), piece.height.end(), 0.0F);
+        std::fill(stock.height.begin(), stock.height.end(), 0.0F);
+        const auto fill = [&](HeightField& map, std::size_t x, std::size_t y, std::size_t size, float top) {
+            for (std::size_t row = y; row < std::min(y + size, map.rows); ++row) {
+                for (std::size_t column = x; column < std::min(x + size, map.columns); ++column) {
+                    float& height = map.height[row * map.columns + column];
+                    height = std::max(height, top);
+                }
+            }
+        };
+        fill(stock, 30, 30, 140, 120);
+        for (int k = 0; k < 8; ++k) {
+            const std::size_t size = 10 + random() % 40;
+            const std::size_t x = 30 + random() % (140 - size);
+            const std::size_t y = 30 + random() % (140 - size);
+            fill(piece, x, y, size, static_cast<float>(10 + random() % 160));
+        }
+        for (std::size_t k = 0; k < stock.height.size(); ++k)
+            stock.height[k] = std::max(stock.height[k], piece.height[k]);
+        const HeightField tip = dilate_by_disc(piece, 0.5 * tool.diameter + 1);
+        plate.space.cl_limit = &tip;
+        plate.space.is_limit_between = false;
+        plate.space.stock = plate.space.centre_stock = stock;
+        plate.space.retract = 180;
+        plate.operation.kind = OperationKind::roughing;
+        plate.operation.stepdown = 15;
+        plate.operation.stepover = 8;
+        plate.operation.allowance = 0.5;
+        const HeightField under = dilate_by_disc(piece, 0.5 * body.steps[0].diameter - 1);
+        for (const PathRun& run : rough(plate.space, tool, body, plate.operation, options, {}).runs) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                const auto parts = static_cast<std::size_t>(norm(move.tip - at)) + 1;
+                for (std::size_t k = 0; k <= parts; ++k) {
+                    const Vec3 p = at + (static_cast<double>(k) / static_cast<double>(parts)) * (move.tip - at);
+                    EXPECT_LE(under.height_under(p.x, p.y), p.z + tool.stick_out)
+                        << i << ": " << p.x << " " << p.y << " " << p.z << ", kind " << static_cast<int>(move.kind);
+                }
+                at = move.tip;
+            }
+        }
+    }
+}
+
 TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
     Plate plate;
     for (std::size_t r = 0; r < 200; ++r) {
@@ -408,7 +470,7 @@ TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
     Plate plate;
     for (float& height : plate.space.holder_clearance_height.height) height = random() % 9 == 0 ? 20.0F : 0.0F;
     std::vector<Pass> passes;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 170; ++i) {
         Pass pass;
         for (int k = 0; k < 6; ++k) pass.points.push_back({{at(random), at(random), 12}, true});
         pass.is_closed = i % 2 == 0;
