@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/error.h"
+
 namespace qchopper {
 namespace {
 
@@ -35,7 +37,8 @@ fs::path cell_file_of(const std::string& text) {
         fs::path file = folder / (text + ".toml");
         if (fs::is_regular_file(file, error)) return file;
     }
-    return given;
+    throw InputError(InputFault::missing, "there is no cell file " + text + ", and no ready cell of that name here",
+                     "name the file, as cells/kr60-ha.toml; qchopper cells list names those that are ready");
 }
 
 }  // namespace qchopper

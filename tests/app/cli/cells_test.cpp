@@ -94,6 +94,10 @@ TEST_F(Cells, SaysWhereNoBlockCanStand) {
     EXPECT_EQ(old.code, 64);
     EXPECT_NE(old.err.find("describes no machine"), std::string::npos) << old.err;
     EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml"}).code, 64) << "no tilt";
+    const program::Ended unknown = run({"cells", "show", "kr60-hb"});
+    EXPECT_EQ(unknown.code, 66);
+    EXPECT_NE(unknown.err.find("there is no cell file kr60-hb, and no ready cell of that name"), std::string::npos)
+        << unknown.err;
     EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml", "--tilt", "91"}).code, 64);
     EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml", "--tilt", "0", "--block", "1,2"}).code, 64);
 }
