@@ -78,9 +78,8 @@ int run_program(int argc, const char* const* argv) {
     const bool is_json = std::ranges::find(words, "--json") != words.end();
     catch_signals();
     Terminal terminal(is_json);
-    if (std::ranges::find(words, "--progress=json") != words.end() ||
-        !std::ranges::search(words, progress_json).empty())
-        terminal.set_progress_json();
+    const auto pair = std::search(words.begin(), words.end(), progress_json.begin(), progress_json.end());
+    if (pair != words.end() || std::ranges::find(words, "--progress=json") != words.end()) terminal.set_progress_json();
     try {
         const std::optional<Arguments> arguments = parse_arguments(argc, argv);
         if (!arguments) return exit_done;  // help or version was asked for

@@ -76,6 +76,7 @@ std::vector<fs::path> all_kept_aside(const fs::path& folder) {
     }
     std::sort(found.begin(), found.end());
     std::vector<fs::path> paths;
+    paths.reserve(found.size());
     for (auto& [time, path] : found) paths.push_back(std::move(path));
     return paths;
 }

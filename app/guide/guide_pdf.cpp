@@ -63,7 +63,7 @@ class PdfLayout {
     void begin_section(const GuideSection& section) {
         double height = 2 * section_height * line_factor;
         for (const GuideBlock& block : section.blocks) {
-            height += gap + std::visit([this](const auto& one) { return height_of(one); }, block);
+            height += gap + std::visit([this](const auto& one) { return this->height_of(one); }, block);
         }
         if (section.begins_page) {
             begin_page();

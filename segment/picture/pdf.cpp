@@ -19,7 +19,7 @@ HPDF_REAL to_points(double mm) {
     return static_cast<HPDF_REAL>(mm * points_per_mm);
 }
 
-std::string ascii(std::string text) {
+std::string ascii(const std::string& text) {
     std::string result;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
