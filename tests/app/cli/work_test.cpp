@@ -13,6 +13,7 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/local_engine.h"
 #include "app/jobs/kept_programs.h"
+#include "app/jobs/work_attempt.h"
 #include "app/jobs/work_item.h"
 #include "tests/app/cli/program.h"
 
@@ -260,7 +261,12 @@ TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
     const fs::path file = work / "items" / "B.qitem";
     const WorkItem item = item_from(read_file(file), file, build());
     program::Process process({"work", file.string(), "--threads", "1"}, {folder.path});
-    for (int k = 0; k < 2000 && attempts("p.qch") == 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    // It has looked for a result before it is in a stage of the work.
+    const auto is_at_work = [&] {
+        const std::vector<SeenAttempt> seen = attempts_at(item.result, work / "attempts");
+        return std::any_of(seen.begin(), seen.end(), [](const SeenAttempt& one) { return !one.attempt.stage.empty(); });
+    };
+    for (int k = 0; k < 4000 && !is_at_work(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     fs::create_directories(work / "results");
     keep_programs(work / "results" / item.result, {item.job, sha256(item.cell_file), item.fine},
                   {{}, "another machine says so", item.job.caps});
