@@ -13,7 +13,7 @@ int run(const GuideArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const std::filesystem::path folder = without_slash(arguments.project);
     if (!is_project_folder(folder)) {
-        throw InputError(InputFault::missing, folder.string() + " is no project folder",
+        throw InputError(InputFault::missing, "there is no project " + folder.string(),
                          "name a folder that prepare has made");
     }
     LockedProject open(folder, std::nullopt, terminal.context());

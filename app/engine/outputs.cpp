@@ -199,8 +199,9 @@ void remove_outputs(const fs::path& folder, Project& project) {
         save_project(folder, project);
     }
     if (finished) keep_aside(folder, *finished);
+    std::error_code error;
     for (const char* name : output_folders) {
-        fs::create_directories(folder / name);
+        fs::create_directories(folder / name, error);
         remove_but(folder / name, {});
     }
     remove_sheets(folder);

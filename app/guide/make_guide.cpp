@@ -17,8 +17,6 @@
 namespace qchopper {
 namespace {
 
-using Row = std::vector<std::string>;
-
 // Of foam, so that a mass can be told where the cell file names no density.
 constexpr double shown_density = 100;  // kg/m3
 constexpr double mm3_per_m3 = 1e9;
@@ -123,7 +121,7 @@ const SawnBlock* block_of(const GuideInput& in, const std::string& piece) {
     return found == in.jobs.blocks.end() ? nullptr : &*found;
 }
 
-// "x 1000 to 320, z 500 to 200.5 twice"
+// "x 1000 to 320.0, z 500 to 200.5 at both ends"
 std::string cuts_of(const SawnBlock& block) {
     std::string text;
     for (const SawCuts& cuts : block.cuts) {

@@ -37,7 +37,8 @@ void write_animation(OpenProject& project, const fs::path& file, const std::stri
     ExportRequest request;
     request.format = "glb";
     request.out = file;
-    fs::remove(file);
+    std::error_code error;  // one that stays is refused by export_pieces
+    fs::remove(file, error);
     export_pieces(project, request, program_version, context);
 }
 
@@ -53,14 +54,16 @@ WrittenGuide write_guide(OpenProject& project, const std::string& program_versio
     project.check_cell();
     Setups& setups = *project.setups();
     ProjectJoints joints = project_joints(segmentation, &setups.cell(), context);
+    StageTimer stage(context, "jobs read");
     const OrderContent jobs = order_content(folder, project.project(), segmentation, setups, joints.joints);
     joints.faces = faces_of(joints, jobs, segmentation.pieces, setups);
     const std::string order = project.project().scan.path.filename().string();
+    stage.next("guide laid out");
     const AssemblyGuide guide = make_guide({order, segmentation.pieces, joints, jobs}, context);
     const std::string html = guide_html(guide);
     const Bytes pdf = guide_pdf(guide);
     context.check_cancelled();
-    const StageTimer stage(context, "guide written");
+    stage.next("guide written");
     write_file(folder / "guide.html", html);
     write_file(folder / "guide.pdf", pdf);
     write_animation(project, folder / "guide.glb", program_version, context);

@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>

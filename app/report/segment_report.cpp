@@ -72,7 +72,7 @@ std::string weights_word(const Weights& weights, const Weights& others) {
     std::string word;
     for (const ObjectiveField& field : all_objectives) {
         if (weights.*field.weight == others.*field.weight) continue;
-        word += (word.empty() ? "" : ",") + std::string(field.key) + "=" + significant(weights.*field.weight, 17);
+        word += (word.empty() ? "" : ",") + std::string(field.key) + "=" + significant(weights.*field.weight, 15);
     }
     return word;
 }
