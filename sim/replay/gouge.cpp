@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t lot = 512;           // lines
 constexpr double flat_cap = 0.05;          // mm, of the corners of a cap from its plane
+constexpr double rounding = 1e-6;          // mm, generous
 constexpr std::size_t max_parts = 20'000;  // of a triangle; then the bound is taken
 
 struct Part {
@@ -49,6 +50,18 @@ double evaluate(const SweptCutter& swept, Part& part) {
     return distance;
 }
 
+// A ball about a triangle.
+struct BoundingBall {
+    Vec3 middle;
+    double radius = 0;
+};
+
+BoundingBall bounds_of(const std::array<Vec3, 3>& triangle) {
+    BoundingBall bounds{middle_of(triangle), 0};
+    for (const Vec3 corner : triangle) bounds.radius = std::max(bounds.radius, norm(corner - bounds.middle));
+    return bounds;
+}
+
 struct Hit {
     std::uint32_t triangle = 0;
     float depth = 0;
@@ -63,6 +76,9 @@ class DirectionGouges {
           tree_(turned_) {
         top_ = -1e9;
         for (const Vec3 p : turned_.points) top_ = std::max(top_, p.z);
+        bounds_.reserve(turned_.triangles.size());
+        for (std::uint32_t t = 0; t < turned_.triangles.size(); ++t)
+            bounds_.push_back(bounds_of(corners_of(turned_, t)));
     }
     // `hole`: the one that the line drills, whose cap is not asked; nullptr: none.
     void test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line, const SceneHole* hole,
@@ -77,6 +93,7 @@ class DirectionGouges {
     Pose frame_;
     TriangleMesh turned_;
     TriangleTree tree_;
+    std::vector<BoundingBall> bounds_;  // per triangle
     double top_ = 0;
 };
 
@@ -88,6 +105,7 @@ void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floo
     const double low = a.z + std::min(0.0, move.z);
     if (low > top_) return;
     const SweptCutter swept(cutter, move);
+    const bool is_ball = cutter.shape == ToolShape::ball;
     const double r = cutter.radius;
     const Vec3 least{a.x + std::min(0.0, move.x) - r, a.y + std::min(0.0, move.y) - r, low};
     const Vec3 most{a.x + std::max(0.0, move.x) + r, a.y + std::max(0.0, move.y) + r, top_};
@@ -95,6 +113,10 @@ void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floo
     tree_.for_each_near(box, [&](std::uint32_t t) {
         const auto known = hits.find(t);
         const double enough = known == hits.end() ? floor : std::max<double>(floor, known->second.depth);
+        // Of a ball most triangles are nowhere so deep for certain, because the distance changes by no more than that
+        // between two points.
+        const BoundingBall& bounds = bounds_[t];
+        if (is_ball && swept.is_ball_beyond(bounds.middle - a, bounds.radius - enough + rounding)) return;
         std::array<Vec3, 3> corners = corners_of(turned_, t);
         const bool is_cap = hole != nullptr && std::all_of(corners.begin(), corners.end(),
                                                            [&](Vec3 c) { return std::abs(c.z - mouth) <= flat_cap; });
@@ -126,11 +148,12 @@ std::vector<std::array<Vec3, 2>> parts_of(const ToolPath& path, std::size_t i) {
 }  // namespace
 
 double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle, double floor) {
-    double deepest = floor;
+    Part whole{triangle, 0};
+    double deepest = std::max(floor, -evaluate(swept, whole));
+    if (-whole.bound <= deepest + gouge_resolution) return deepest;
     // A heap, so that the part that may be deepest is divided first, and what is left over is bounded closely.
-    std::vector<Part> parts{{triangle, 0}};
+    std::vector<Part> parts{whole};
     const auto is_shallower = [](const Part& a, const Part& b) { return a.bound > b.bound; };
-    deepest = std::max(deepest, -evaluate(swept, parts[0]));
     for (std::size_t left = max_parts; left > 0; --left) {
         if (parts.empty() || -parts.front().bound <= deepest + gouge_resolution) return deepest;
         std::pop_heap(parts.begin(), parts.end(), is_shallower);

@@ -75,7 +75,7 @@ void judge_given_up(const ReplayReport& report, const ReplayOptions& options, Fi
                " % of the surface, keep foam that tools of the cell reach and the program gives up, most of it tool " +
                std::to_string(most.tool) + " in orientation " + std::to_string(most.orientation + 1) + "; at most " +
                fixed(100 * options.max_given_up, 2) +
-               " % may be given up, unless the operator names by --tools the tools that may be used";
+               " % may be given up, unless the operator names the tools that may be used";
     });
 }
 

@@ -15,11 +15,11 @@
 
 namespace qchopper {
 
-// Some of the cells of a map, in blocks of 64 x 16.
+// Some of the cells of a map, in blocks of 32 x 8.
 class CellBlocks {
  public:
-    static constexpr std::int32_t wide = 64;
-    static constexpr std::int32_t high = 16;
+    static constexpr std::int32_t wide = 32;
+    static constexpr std::int32_t high = 8;
 
     // None of the cells.
     explicit CellBlocks(const SurfaceMap& map);

@@ -1,107 +1,26 @@
-// Heights of triangles at the centres of cells by barycentric coordinates, then cutter_morphology.h; points that no
-// tool has come to yet are asked of the next closing, which is computed about them alone. O(cells * (radius / cell)^2)
-// at most a closing.
+// The surface of the target (target_surface.h), then cutter_morphology.h; points that no tool has come to yet are asked
+// of the next closing, which is computed about them alone: of a ball only about those that a finer ball comes to but
+// for its holder. O(cells * (radius / cell)^2) at most a closing.
 
 #include "sim/replay/reach/reachable.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
 #include "cam/cell/machine_bodies.h"
 #include "sim/replay/reach/cutter_morphology.h"
+#include "sim/replay/reach/target_surface.h"
 #include "sim/replay/stock/cutter.h"
-#include "sim/replay/stock/tool_axis_frame.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double holder_cell = 2;
-
-void raise(SurfaceMap& map, Vec3 p) {
-    const auto i = static_cast<std::int32_t>(std::floor((p.x - map.x_min) / map.cell));
-    const auto j = static_cast<std::int32_t>(std::floor((p.y - map.y_min) / map.cell));
-    if (i < 0 || j < 0 || i >= map.columns || j >= map.rows) return;
-    float& height = map.height[static_cast<std::size_t>(j) * map.columns + i];
-    height = std::max(height, static_cast<float>(p.z));
-}
-
-void rasterise(SurfaceMap& map, const std::array<Vec3, 3>& t) {
-    const double area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
-    if (std::abs(area) < 1e-12) return;
-    const auto cell_of = [&](double at, double min) { return (at - min) / map.cell - 0.5; };
-    const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
-    const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
-    const auto i_first = std::max(0, static_cast<std::int32_t>(std::ceil(cell_of(x0, map.x_min))));
-    const auto i_last = std::min(map.columns - 1, static_cast<std::int32_t>(std::floor(cell_of(x1, map.x_min))));
-    const auto j_first = std::max(0, static_cast<std::int32_t>(std::ceil(cell_of(y0, map.y_min))));
-    const auto j_last = std::min(map.rows - 1, static_cast<std::int32_t>(std::floor(cell_of(y1, map.y_min))));
-    for (std::int32_t j = j_first; j <= j_last; ++j) {
-        const double y = map.y_min + (j + 0.5) * map.cell;
-        for (std::int32_t i = i_first; i <= i_last; ++i) {
-            const double x = map.x_min + (i + 0.5) * map.cell;
-            const double b = ((x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (y - t[0].y)) / area;
-            const double c = ((t[1].x - t[0].x) * (y - t[0].y) - (x - t[0].x) * (t[1].y - t[0].y)) / area;
-            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) continue;
-            const double z = t[0].z + b * (t[1].z - t[0].z) + c * (t[2].z - t[0].z);
-            float& height = map.height[static_cast<std::size_t>(j) * map.columns + i];
-            height = std::max(height, static_cast<float>(z));
-        }
-    }
-}
-
-// Raises the map to the horizontal plane at a height of the setup.
-void raise_to_floor(SurfaceMap& map, double floor_z) {
-    const Vec3 up = map.frame_in_setup.row[2];
-    if (up.z < 1e-9) return;  // seen from its edge
-    const double height = floor_z - map.frame_in_setup.shift.z;
-    for (std::int32_t j = 0; j < map.rows; ++j) {
-        const double y = map.y_min + (j + 0.5) * map.cell;
-        for (std::int32_t i = 0; i < map.columns; ++i) {
-            const double x = map.x_min + (i + 0.5) * map.cell;
-            float& own = map.height[static_cast<std::size_t>(j) * map.columns + i];
-            own = std::max(own, static_cast<float>((height - up.x * x - up.y * y) / up.z));
-        }
-    }
-}
-
-// The map of the target and of the floor below it, `around` cells wider than the target on each side.
-SurfaceMap target_surface(const ReplayScene& scene, std::size_t orientation, double cell, std::int32_t around) {
-    SurfaceMap map{tool_axis_frame(scene.orientations[orientation].tool_axis), 0, 0, cell, 0, 0, {}, false};
-    std::vector<Vec3> points = scene.target->points;
-    for (Vec3& p : points) p = apply_inverse(map.frame_in_setup, p);
-    Box box{points.front(), points.front()};
-    for (const Vec3 p : points) extend(box, p);
-    map.x_min = (std::floor(box.min.x / cell) - around - 1) * cell;
-    map.y_min = (std::floor(box.min.y / cell) - around - 1) * cell;
-    map.columns = static_cast<std::int32_t>(std::ceil((box.max.x - map.x_min) / cell)) + around + 1;
-    map.rows = static_cast<std::int32_t>(std::ceil((box.max.y - map.y_min) / cell)) + around + 1;
-    map.height.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), no_surface);
-    for (const Triangle& t : scene.target->triangles) rasterise(map, {points[t[0]], points[t[1]], points[t[2]]});
-    for (const Vec3 p : points) raise(map, p);
-    raise_to_floor(map, scene.floor_z());
-    return map;
-}
-
-// Without so many cells on each side.
-SurfaceMap narrowed(const SurfaceMap& wide, std::int32_t by) {
-    SurfaceMap map{wide.frame_in_setup,
-                   wide.x_min + by * wide.cell,
-                   wide.y_min + by * wide.cell,
-                   wide.cell,
-                   wide.columns - 2 * by,
-                   wide.rows - 2 * by,
-                   {},
-                   false};
-    map.height.reserve(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
-    for (std::int32_t j = 0; j < map.rows; ++j) {
-        const auto row = wide.height.begin() + static_cast<std::ptrdiff_t>(j + by) * wide.columns + by;
-        map.height.insert(map.height.end(), row, row + map.columns);
-    }
-    return map;
-}
 
 // The cells about the target that its closing needs: tips stand up to the radius beside it, on surface as far again.
 std::int32_t margin_of(const CuttingTool& tool, double cell) {
@@ -142,6 +61,28 @@ bool holds_all_of(const CuttingTool& tool, const CuttingTool& finer, const CellM
     });
 }
 
+// Surfaces of the target in coarse cells, dilated by discs of holders and spindles: each is made once. Not for several
+// threads at once.
+class HolderMaps {
+ public:
+    explicit HolderMaps(const ReplayScene& scene) : scene_(scene) {}
+    const ReplayScene& scene() const { return scene_; }
+    const SurfaceMap& of(std::size_t orientation, double radius) {
+        const auto [found, is_new] = known_.try_emplace({orientation, radius});
+        if (is_new) {
+            SurfaceMap& map = found->second;
+            const auto around = static_cast<std::int32_t>(std::ceil(radius / holder_cell));
+            map = target_surface(scene_, orientation, holder_cell, around);
+            map.height = dilated(map, {ToolShape::flat, radius, 0, 0, 1}, CellBlocks::all_of(map));
+        }
+        return found->second;
+    }
+
+ private:
+    const ReplayScene& scene_;
+    std::map<std::pair<std::size_t, double>, SurfaceMap> known_;
+};
+
 // The ball-ended ones, the finest first; where there are none, all but drills.
 void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTool>& of_cell) {
     std::erase_if(tools, [&](std::size_t i) { return is_drill(of_cell[i]); });
@@ -153,8 +94,8 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTo
 
 // Raises tips to where flat discs above them, holder and spindle, are clear of the surface. Tips that are no_surface
 // are not asked for.
-void clear_holder(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
-    const std::vector<BodyDisc> discs = discs_of(tool, *scene.cell->machine);
+void clear_holder(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
+    const std::vector<BodyDisc> discs = discs_of(tool, *holders.scene().cell->machine);
     float lowest = -no_surface;
     float highest = no_surface;
     for (const float tip : tips.height) {
@@ -163,31 +104,42 @@ void clear_holder(const ReplayScene& scene, std::size_t orientation, const Cutti
         highest = std::max(highest, tip);
     }
     const double depth = highest - lowest;  // before tips are raised
+    std::vector<std::int32_t> columns(static_cast<std::size_t>(tips.columns));
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;
-        SurfaceMap coarse =
-            target_surface(scene, orientation, holder_cell, static_cast<std::int32_t>(std::ceil(radius / holder_cell)));
-        coarse.height = dilated(coarse, {ToolShape::flat, radius, 0, 0, 1}, CellBlocks::all_of(coarse));
+        const SurfaceMap& coarse = holders.of(orientation, radius);
+        const auto cell_of = [&](double at, double min) {
+            return static_cast<std::int32_t>(std::floor((at - min) / coarse.cell));
+        };
+        for (std::int32_t i = 0; i < tips.columns; ++i) {
+            columns[static_cast<std::size_t>(i)] = cell_of(tips.x_min + (i + 0.5) * tips.cell, coarse.x_min);
+        }
         for (std::int32_t j = 0; j < tips.rows; ++j) {
+            const std::int32_t row = cell_of(tips.y_min + (j + 0.5) * tips.cell, coarse.y_min);
+            if (row < 0 || row >= coarse.rows) continue;
+            const float* const over = coarse.height.data() + static_cast<std::ptrdiff_t>(row) * coarse.columns;
+            float* const own = tips.height.data() + static_cast<std::ptrdiff_t>(j) * tips.columns;
             for (std::int32_t i = 0; i < tips.columns; ++i) {
-                float& tip = tips.height[static_cast<std::size_t>(j) * tips.columns + i];
-                if (tip == no_surface) continue;
-                const double x = tips.x_min + (i + 0.5) * tips.cell;
-                const double y = tips.y_min + (j + 0.5) * tips.cell;
-                const auto least = static_cast<float>(coarse.at(x, y) - height);
-                if (least > tip) tip = least, tips.is_limited = true;
+                const std::int32_t column = columns[static_cast<std::size_t>(i)];
+                if (own[i] == no_surface || column < 0 || column >= coarse.columns) continue;
+                const auto least = static_cast<float>(static_cast<double>(over[column]) - height);
+                if (least > own[i]) own[i] = least, tips.is_limited = true;
             }
         }
     }
 }
 
-// The closing of a map of the target, of the cells asked for.
-void close(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, const CellBlocks& asked,
-           SurfaceMap& map) {
+// The least heights of tips over a map of the target, about the cells asked for, without the holder.
+std::vector<float> tips_about(const CellBlocks& asked, const CuttingTool& tool, const SurfaceMap& map) {
     const Cutter cutter = cutter_of(tool);
-    map.height = dilated(map, cutter, asked.grown(static_cast<std::int32_t>(std::ceil(cutter.radius / map.cell))));
-    clear_holder(scene, orientation, tool, map);
-    map.height = eroded(map, cutter, asked);
+    return dilated(map, cutter, asked.grown(static_cast<std::int32_t>(std::ceil(cutter.radius / map.cell))));
+}
+
+// The closing of the target, of the cells asked for: of a map of its tips.
+void close(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, const CellBlocks& asked,
+           SurfaceMap& map) {
+    clear_holder(holders, orientation, tool, map);
+    map.height = eroded(map, cutter_of(tool), asked);
 }
 
 // What is nearer to a point than `most` along both sides of the map.
@@ -197,6 +149,48 @@ CellRange cells_around(const SurfaceMap& map, Vec3 point, double most) {
     };
     return {cell_of(point.x - most, map.x_min) - 1, cell_of(point.x + most, map.x_min) + 2,
             cell_of(point.y - most, map.y_min) - 1, cell_of(point.y + most, map.y_min) + 2};
+}
+
+CellBlocks blocks_about(const SurfaceMap& map, const std::vector<Vec3>& points, const std::vector<std::size_t>& asked,
+                        double most) {
+    CellBlocks blocks(map);
+    for (const std::size_t i : asked) blocks.add(cells_around(map, apply_inverse(map.frame_in_setup, points[i]), most));
+    return blocks;
+}
+
+// Which of the points lie as near to the closing of a map as `within`.
+std::vector<std::uint8_t> near_closing(const SurfaceMap& map, const std::vector<Vec3>& points,
+                                       const std::vector<std::size_t>& asked, double within) {
+    std::vector<std::uint8_t> is_near(asked.size());
+    parallel_for(0, asked.size(), [&](std::size_t k) {
+        const Vec3 q = apply_inverse(map.frame_in_setup, points[asked[k]]);
+        is_near[k] = map.distance_above(q, within + map.cell) <= within ? 1 : 0;
+    });
+    return is_near;
+}
+
+// Of points to which a ball does not come those to which a larger one may, from a map of the smaller one's tips
+// without its holder. Where the larger ball removes the column of a cell, a smaller one inside of it that touches the
+// same point does; moved to the next cells towards the larger one's axis it removes the same height of the same column
+// or of one of its neighbours, so that it comes as near but for the diagonal of a cell. Points beside the map are kept
+// (tests/sim/replay/given_up_test.cpp).
+std::vector<std::size_t> kept_by_holder(SurfaceMap tips, const CuttingTool& tool, const std::vector<Vec3>& points,
+                                        const std::vector<std::size_t>& asked, double within) {
+    constexpr double rounding = 1e-3;  // mm, generous
+    const double most = within + std::numbers::sqrt2 * tips.cell + rounding;
+    const CellBlocks blocks = blocks_about(tips, points, asked, most + tips.cell);
+    tips.height = eroded(tips, cutter_of(tool), blocks);
+    const std::vector<std::uint8_t> is_near = near_closing(tips, points, asked, most);
+    const auto is_on_map = [&](Vec3 point) {
+        const Vec3 q = apply_inverse(tips.frame_in_setup, point);
+        const CellRange cells = cells_around(tips, q, most + tips.cell);
+        return cells.x_begin >= 0 && cells.y_begin >= 0 && cells.x_end <= tips.columns && cells.y_end <= tips.rows;
+    };
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        if (is_near[k] != 0 || !is_on_map(points[asked[k]])) kept.push_back(asked[k]);
+    }
+    return kept;
 }
 
 // Whether a tool reaches nothing that a finer one, whose closing is known to be limited by its holder or not, does not.
@@ -211,7 +205,10 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const C
                       const Context& context) {
     context.check_cancelled();
     SurfaceMap map = target_surface(scene, orientation, cell, margin_of(tool, cell));
-    close(scene, orientation, tool, CellBlocks::all_of(map), map);
+    const CellBlocks all = CellBlocks::all_of(map);
+    map.height = tips_about(all, tool, map);
+    HolderMaps holders(scene);
+    close(holders, orientation, tool, all, map);
     context.check_cancelled();
     return map;
 }
@@ -272,6 +269,7 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
                                                      const Context& context) {
     const CellMachine& machine = *scene.cell->machine;
     const double most = within + cell;  // beyond `within` the distance does not count
+    HolderMaps holders(scene);
     std::vector<std::optional<ReachingTool>> reach(points.size());
     std::vector<std::size_t> left(points.size());
     std::iota(left.begin(), left.end(), std::size_t{0});
@@ -284,25 +282,31 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
         std::int32_t widest = 0;
         for (const std::size_t tool : tools) widest = std::max(widest, margin_of(machine.tools[tool], cell));
         std::optional<SurfaceMap> target;
+        std::optional<std::vector<std::size_t>> kept;  // of those left what coarser tools may come to
         for (const std::size_t tool : tools) {
+            const CuttingTool& own = machine.tools[tool];
             const bool is_needless = std::any_of(closed.begin(), closed.end(), [&](const auto& finer) {
-                return adds_nothing(machine.tools[tool], machine.tools[finer.first], finer.second, machine);
+                return adds_nothing(own, machine.tools[finer.first], finer.second, machine);
             });
-            if (is_needless || left.empty()) continue;
+            const std::vector<std::size_t> asked = kept ? *kept : left;
+            if (is_needless || asked.empty()) continue;
             context.check_cancelled();
             if (!target) target = target_surface(scene, d, cell, widest);
-            SurfaceMap map = narrowed(*target, widest - margin_of(machine.tools[tool], cell));
-            CellBlocks asked(map);
-            for (const std::size_t i : left) {
-                asked.add(cells_around(map, apply_inverse(map.frame_in_setup, points[i]), most));
-            }
-            close(scene, d, machine.tools[tool], asked, map);
+            SurfaceMap map = narrowed(*target, widest - margin_of(own, cell));
+            const CellBlocks blocks = blocks_about(map, points, asked, most);
+            map.height = tips_about(blocks, own, map);
+            std::optional<SurfaceMap> tips;
+            if (!kept && own.shape == ToolShape::ball && tool != tools.back()) tips = map;
+            close(holders, d, own, blocks, map);
             closed.emplace_back(tool, map.is_limited);
-            parallel_for(0, left.size(), [&](std::size_t k) {
-                const Vec3 q = apply_inverse(map.frame_in_setup, points[left[k]]);
-                if (map.distance_above(q, most) <= within) reach[left[k]] = ReachingTool{tool, d};
-            });
-            std::erase_if(left, [&](std::size_t i) { return reach[i].has_value(); });
+            const std::vector<std::uint8_t> is_near = near_closing(map, points, asked, within);
+            for (std::size_t k = 0; k < asked.size(); ++k) {
+                if (is_near[k] != 0) reach[asked[k]] = ReachingTool{tool, d};
+            }
+            const auto is_reached = [&](std::size_t i) { return reach[i].has_value(); };
+            std::erase_if(left, is_reached);
+            if (kept) std::erase_if(*kept, is_reached);
+            if (tips && map.is_limited) kept = kept_by_holder(std::move(*tips), own, points, left, within);
         }
     }
     return reach;

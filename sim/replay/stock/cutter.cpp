@@ -269,18 +269,20 @@ double SweptCutter::min_from_cylinder(const std::array<Vec3, 3>& triangle) const
     return std::max({bound(0), bound(1), both});
 }
 
-// A ball and its shank are all points within the radius of a strip: the way of the centre, and all above it.
-double SweptCutter::ball_distance(Vec3 point, Vec3& gradient) const {
+Vec3 SweptCutter::off_strip(Vec3 point) const {
     const Vec3 p{point.x, point.y, point.z - cutter_.radius};
     double s = 0;
     if (length_ > 0) s = std::clamp((p.x * unit_x_ + p.y * unit_y_) / length_, 0.0, 1.0);
     if (length_ == 0 && move_.z < 0) s = 1;
-    Vec3 off{p.x - s * move_.x, p.y - s * move_.y, 0};
-    if (p.z < s * move_.z) {
-        const double length2 = dot(move_, move_);
-        s = length2 > 0 ? std::clamp(dot(p, move_) / length2, 0.0, 1.0) : 0;
-        off = p - s * move_;
-    }
+    if (p.z >= s * move_.z) return {p.x - s * move_.x, p.y - s * move_.y, 0};
+    const double length2 = dot(move_, move_);
+    s = length2 > 0 ? std::clamp(dot(p, move_) / length2, 0.0, 1.0) : 0;
+    return p - s * move_;
+}
+
+// A ball and its shank are all points within the radius of a strip: the way of the centre, and all above it.
+double SweptCutter::ball_distance(Vec3 point, Vec3& gradient) const {
+    const Vec3 off = off_strip(point);
     const double distance = norm(off);
     gradient = distance > 0 ? (1 / distance) * off : Vec3{0, 0, 0};
     return distance - cutter_.radius;

@@ -56,6 +56,12 @@ class SweptCutter {
     double distance(Vec3 point) const;
     // Of a ball: the same with its gradient; the distance is a convex function of the point.
     double ball_distance(Vec3 point, Vec3& gradient) const;
+    // Of a ball: whether a point is at least so far outside; below 0: at most so deep inside. Without a root.
+    bool is_ball_beyond(Vec3 point, double distance) const {
+        const double from_strip = distance + cutter_.radius;
+        const Vec3 off = off_strip(point);
+        return from_strip <= 0 || dot(off, off) >= from_strip * from_strip;
+    }
     // A lower bound of the distance for all points of a triangle, from the cylinder about the tool. It nears the
     // distance with the square of the triangle's size, except at the edge of the cylinder.
     double min_from_cylinder(const std::array<Vec3, 3>& triangle) const;
@@ -67,6 +73,8 @@ class SweptCutter {
     const Cutter& cutter() const { return cutter_; }
 
  private:
+    // Of a ball: from the nearest point of the strip that is the way of its centre and all above.
+    Vec3 off_strip(Vec3 point) const;
     // Of 0..1 of the move, where the cylinder about the tool is nearest to a point or holds it deepest.
     double place_in_cylinder(Vec3 point) const;
 

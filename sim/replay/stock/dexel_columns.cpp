@@ -14,6 +14,8 @@ namespace {
 constexpr std::int32_t side = DexelTile::side;
 constexpr double rounding = 1e-3;  // mm, generous
 constexpr float infinite = std::numeric_limits<float>::infinity();
+// mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
+constexpr double known_below = 8;
 
 struct BelowRange {
     std::vector<DexelTile::Below>::iterator begin;
@@ -45,6 +47,26 @@ void add_part(std::vector<Dexel>& parts, double low, double high) {
     if (low < high) parts.push_back({low, high});
 }
 
+// Takes what lies between two heights from intervals.
+void subtract(std::vector<Dexel>& intervals, const Dexel& part) {
+    for (std::size_t k = intervals.size(); k-- > 0;) {
+        const Dexel own = intervals[k];
+        if (own.high <= part.low) return;
+        if (own.low >= part.high) continue;
+        const auto at = intervals.begin() + static_cast<std::ptrdiff_t>(k);
+        if (own.low < part.low && part.high < own.high) {
+            *at = {part.high, own.high};
+            intervals.insert(at, {own.low, part.low});
+        } else if (own.low < part.low) {
+            at->high = part.low;
+        } else if (part.high < own.high) {
+            at->low = part.high;
+        } else {
+            intervals.erase(at);
+        }
+    }
+}
+
 // Appends intervals; the first continues the last one before if it begins where that ends.
 void append(std::vector<Dexel>& column, const std::vector<Dexel>& parts) {
     for (const Dexel& part : parts) {
@@ -57,8 +79,8 @@ void append(std::vector<Dexel>& column, const std::vector<Dexel>& parts) {
     }
 }
 
-// Whether a map may have removed something from a box of another frame.
-bool is_removed_in(const DexelMap& map, const Pose& box_in_map, const Box& box) {
+// What a map has removed from a box of another frame.
+DexelMap::Removed removed_in(const DexelMap& map, const Pose& box_in_map, const Box& box) {
     const Vec3 middle = apply(box_in_map, 0.5 * (box.min + box.max));
     const Vec3 half = 0.5 * (box.max - box.min);
     const Vec3 x = rotate(box_in_map, {half.x, 0, 0});
@@ -67,7 +89,8 @@ bool is_removed_in(const DexelMap& map, const Pose& box_in_map, const Box& box) 
     const double wide = std::abs(x.x) + std::abs(y.x) + std::abs(z.x) + rounding;
     const double deep = std::abs(x.y) + std::abs(y.y) + std::abs(z.y) + rounding;
     const double high = std::abs(x.z) + std::abs(y.z) + std::abs(z.z) + rounding;
-    return map.is_cut_below(middle.z + high, {middle.x - wide, middle.x + wide, middle.y - deep, middle.y + deep});
+    return map.removed_in({middle.z - high, middle.z + high},
+                          {middle.x - wide, middle.x + wide, middle.y - deep, middle.y + deep});
 }
 
 }  // namespace
@@ -78,7 +101,7 @@ DexelColumns::DexelColumns(const std::vector<std::unique_ptr<DexelMap>>& maps, s
         if (other == orientation) continue;
         const Pose in_other = inverse(maps[other]->frame_in_block) * own_->frame_in_block;
         others_.push_back(
-            {maps[other].get(), in_other, rotate(in_other, {0, 0, 1}), static_cast<Maps>(1U << other % 16)});
+            {maps[other].get(), in_other, {{}, rotate(in_other, {0, 0, 1})}, static_cast<Maps>(1U << other % 16)});
     }
 }
 
@@ -116,32 +139,33 @@ void DexelColumns::make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const
     }
 }
 
-DexelColumns::Met DexelColumns::met_between(DexelTile& tile, TileCell at, double low, double high) const {
-    const auto slab_of = [&](double z) {
-        return static_cast<std::size_t>(std::clamp((own_->top - z) / slab_, 0.0, double(tile.slabs.size() - 1)));
-    };
+std::size_t DexelColumns::slab_of(double z, std::size_t count) const {
+    return static_cast<std::size_t>(std::clamp((own_->top - z) / slab_, 0.0, static_cast<double>(count - 1)));
+}
+
+DexelColumns::Met DexelColumns::ask_slabs(DexelTile& tile, TileCell at, std::size_t first, std::size_t end) {
     const std::size_t square =
         DexelTile::square_of_cut(static_cast<std::int32_t>(at.cell % side), static_cast<std::int32_t>(at.cell / side));
     const std::uint64_t own_bit = std::uint64_t{1} << square;
-    Met met{0, high, low};
-    const std::size_t end = slab_of(low) + 1;
-    for (std::size_t k = slab_of(high); k < end; ++k) {
+    Met all;
+    met_.clear();
+    for (std::size_t k = first; k < end; ++k) {
         DexelTile::Slab& slab = tile.slabs[k];
         if ((slab.known & own_bit) == 0) {
             slab.known |= own_bit;
-            slab.met[square] = met_in_slab(at, k);
+            const Met met = met_in_slab(at, k);
+            slab.met[square] = met.maps;
+            if (met.is_removed) slab.removed |= own_bit;
         }
-        if (slab.met[square] == 0) continue;
-        const double top = own_->top - static_cast<double>(k) * slab_;
-        if (met.maps == 0) met.high = k == 0 ? high : std::min(high, top + rounding);
-        met.low = k + 1 == tile.slabs.size() ? low : std::max(low, top - slab_ - rounding);
-        met.maps |= slab.met[square];
+        met_.push_back({slab.met[square], (slab.removed & own_bit) != 0});
+        all.maps |= met_.back().maps;
+        all.is_removed |= met_.back().is_removed;
     }
-    return met;
+    return all;
 }
 
 // The box about the part of a square of columns, in the frame of another map.
-DexelColumns::Maps DexelColumns::met_in_slab(TileCell at, std::size_t slab) const {
+DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const {
     constexpr std::int32_t size = DexelTile::square;
     const auto x = static_cast<std::int32_t>(at.cell % side);
     const auto y = static_cast<std::int32_t>(at.cell / side);
@@ -150,45 +174,71 @@ DexelColumns::Maps DexelColumns::met_in_slab(TileCell at, std::size_t slab) cons
     const double wide = (size - 1) * own_->cell();
     const double top = own_->top - static_cast<double>(slab) * slab_;
     const Box columns{{x_min, y_min, top - slab_}, {x_min + wide, y_min + wide, top}};
-    Maps met = 0;
+    Met met;
     for (const OtherMap& other : others_) {
-        if (is_removed_in(*other.map, other.own_in_other, columns)) met |= other.bit;
+        const DexelMap::Removed removed = removed_in(*other.map, other.own_in_other, columns);
+        if (removed == DexelMap::Removed::all) return {0, true};
+        if (removed == DexelMap::Removed::some) met.maps |= other.bit;
     }
     return met;
 }
 
-void DexelColumns::subtract_others(TileCell at, Maps met) {
+// The slabs at the ends go on to those of the part: heights beyond the map's, and rounding.
+Dexel DexelColumns::part_in(std::size_t first, std::size_t begin, std::size_t end) const {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    return {end == met_.size() ? -far : own_->top - static_cast<double>(first + end) * slab_,
+            begin == 0 ? far : own_->top - static_cast<double>(first + begin) * slab_};
+}
+
+void DexelColumns::subtract_removed(std::size_t first) {
+    for (std::size_t k = 0; k < met_.size(); ++k) {
+        if (!met_[k].is_removed) continue;
+        const std::size_t begin = k;
+        while (k < met_.size() && met_[k].is_removed) ++k;
+        subtract(part_, part_in(first, begin, k));
+    }
+}
+
+void DexelColumns::subtract_others(TileCell at, std::size_t first, Maps met) {
     const auto x = static_cast<std::int32_t>(at.cell % side);
     const auto y = static_cast<std::int32_t>(at.cell / side);
     const Vec3 foot{own_->centre_x(at.tx * side + x), own_->centre_y(at.ty * side + y), 0};
     for (const OtherMap& other : others_) {
         if (part_.empty()) return;
         if ((met & other.bit) == 0) continue;
-        other.map->remove_from(part_, apply(other.own_in_other, foot), other.along);
+        MapLine column = other.column;
+        column.from = apply(other.own_in_other, foot);
+        for (std::size_t k = 0; k < met_.size(); ++k) {
+            if ((met_[k].maps & other.bit) == 0) continue;
+            const std::size_t begin = k;
+            while (k < met_.size() && (met_[k].maps & other.bit) != 0) ++k;
+            other.map->remove_from(part_, column, part_in(first, begin, k));
+        }
     }
 }
 
-void DexelColumns::know(DexelTile& tile, TileCell at, double from_up) {
+void DexelColumns::know_more(DexelTile& tile, TileCell at, double from_up) {
     const std::size_t cell = at.cell;
-    const auto low = static_cast<float>(from_up);
     const float high = tile.known_from[cell];
-    if (!(low < high)) return;
+    const auto low = static_cast<float>(from_up - known_below);
     tile.known_from[cell] = low;
     if (!(tile.low[cell] < tile.high[cell] && tile.high[cell] > low)) return;
-    const Met met = met_between(tile, at, low, std::min(high, tile.high[cell]));
-    if (met.maps == 0) return;
+    const std::size_t first = slab_of(std::min(high, tile.high[cell]), tile.slabs.size());
+    const Met met = ask_slabs(tile, at, first, slab_of(low, tile.slabs.size()) + 1);
+    if (met == Met{}) return;
     column_.clear();
     part_.clear();
     upper_.clear();
     const auto split = [&](float from, float to) {
-        add_part(column_, from, std::min<double>(to, met.low));
-        add_part(part_, std::max<double>(from, met.low), std::min<double>(to, met.high));
-        add_part(upper_, std::max<double>(from, met.high), to);
+        add_part(column_, from, std::min(to, low));
+        add_part(part_, std::max(from, low), std::min(to, high));
+        add_part(upper_, std::max(from, high), to);
     };
     const BelowRange below = below_of(tile.below[cell / side], cell);
     for (auto interval = below.begin; interval != below.end; ++interval) split(interval->low, interval->high);
     split(tile.low[cell], tile.high[cell]);
-    subtract_others(at, met.maps);
+    if (met.is_removed) subtract_removed(first);
+    if (met.maps != 0) subtract_others(at, first, met.maps);
     append(column_, part_);
     append(column_, upper_);
     write(tile, cell);
@@ -214,7 +264,7 @@ void DexelColumns::write(DexelTile& tile, std::size_t cell) {
     tile.high[cell] = static_cast<float>(top.high);
 }
 
-ColumnRemoval DexelColumns::lower(DexelTile& tile, std::size_t cell, double z) {
+ColumnRemoval DexelColumns::lower_through(DexelTile& tile, std::size_t cell, double z) {
     ColumnRemoval removal{0, tile.high[cell]};
     while (tile.low[cell] < tile.high[cell] && tile.high[cell] > z) {
         const double low = std::max<double>(tile.low[cell], z);

@@ -2,9 +2,9 @@
 //
 // mm, in the frame of the direction. Foam only ever becomes less, so that a column of earlier is never too short: it
 // is kept, and what the other directions have taken from it since is subtracted only where a tool comes, and only from
-// there up (DexelTile::known_from), of the directions that may have taken something from a square of columns there
-// (DexelTile::Slab). O(cells of those maps along that part of the column)
-// (tests/sim/replay/stock/stock_model_test.cpp).
+// there up (DexelTile::known_from), of the directions that may have taken something from a square of columns there;
+// what one of them has taken from all of the square goes at once (DexelTile::Slab). O(cells of those maps along that
+// part of the column) (tests/sim/replay/stock/stock_model_test.cpp).
 
 #pragma once
 
@@ -41,35 +41,52 @@ class DexelColumns {
     // A tile with columns, not yet known.
     DexelTile& tile(std::int32_t tx, std::int32_t ty);
     // Makes the column be what is left of the foam, from a height up.
-    void know(DexelTile& tile, TileCell at, double from_up);
+    void know(DexelTile& tile, TileCell at, double from_up) {
+        if (from_up < tile.known_from[at.cell]) know_more(tile, at, from_up);
+    }
     // Removes what is above z. Precondition: the column is known from z up.
-    static ColumnRemoval lower(DexelTile& tile, std::size_t cell, double z);
+    static ColumnRemoval lower(DexelTile& tile, std::size_t cell, float z) {
+        const double top = tile.high[cell];
+        if (!(tile.low[cell] < z)) return lower_through(tile, cell, z);
+        if (!(z < top)) return {0, top};
+        tile.high[cell] = z;
+        return {top - z, top};
+    }
 
  private:
     struct OtherMap {
         const DexelMap* map = nullptr;
         Pose own_in_other;
-        Vec3 along;             // of the columns
+        MapLine column;         // through the origin
         std::uint16_t bit = 0;  // in DexelTile::Slab
     };
     void make(DexelTile& tile, std::int32_t tx, std::int32_t ty) const;
     using Maps = std::uint16_t;  // a bit for each of the other maps, as in DexelTile::Slab
-    // Which of them may have removed something from a part of a column, and between which heights.
+    // Of a slab, what DexelTile::Slab says of a square.
     struct Met {
         Maps maps = 0;
-        double low = 0;
-        double high = 0;
+        bool is_removed = false;
+        bool operator==(const Met&) const = default;
     };
-    Met met_between(DexelTile& tile, TileCell at, double low, double high) const;
-    Maps met_in_slab(TileCell at, std::size_t slab) const;
-    void subtract_others(TileCell at, Maps met);
+    static ColumnRemoval lower_through(DexelTile& tile, std::size_t cell, double z);
+    void know_more(DexelTile& tile, TileCell at, double from_up);
+    std::size_t slab_of(double z, std::size_t count) const;
+    // Of the slabs from one to before another, into met_; of all of them together.
+    Met ask_slabs(DexelTile& tile, TileCell at, std::size_t first, std::size_t end);
+    Met met_in_slab(TileCell at, std::size_t slab) const;
+    // Heights of slabs of met_, of which the first one is that slab of a tile, in the part to subtract from.
+    Dexel part_in(std::size_t first, std::size_t begin, std::size_t end) const;
+    void subtract_removed(std::size_t first);
+    void subtract_others(TileCell at, std::size_t first, Maps met);
     void write(DexelTile& tile, std::size_t cell);
 
     DexelMap* own_;
     double slab_ = 0;  // mm
     std::vector<OtherMap> others_;
     std::uint64_t version_ = 0;
-    // Of the column that is being made known, ascending: all of it, and the part to subtract from.
+    // Of the slabs of the column that is being made known, from the top down.
+    std::vector<Met> met_;
+    // Of that column, ascending: all of it, and the part to subtract from.
     std::vector<Dexel> column_;
     std::vector<Dexel> part_;
     std::vector<Dexel> upper_;

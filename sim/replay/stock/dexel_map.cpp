@@ -15,24 +15,21 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double border = 1;  // cells around the projection of the block
 
-void subtract(std::vector<Dexel>& intervals, double low, double high) {
+// Takes a part from one of the intervals, which holds all of it; `at` is then the one that holds what follows it.
+void subtract(std::vector<Dexel>& intervals, std::size_t& at, double low, double high) {
     if (!(low < high)) return;
-    for (std::size_t k = 0; k < intervals.size(); ++k) {
-        Dexel& own = intervals[k];
-        if (own.high <= low || own.low >= high) continue;
-        const Dexel above{high, own.high};
-        own.high = low;
-        const bool has_below = own.low < own.high;
-        if (above.low < above.high && has_below) {
-            intervals.insert(intervals.begin() + static_cast<std::ptrdiff_t>(k) + 1, above);
-            return;
-        }
-        if (above.low < above.high) {
-            own = above;
-        } else if (!has_below) {
-            intervals.erase(intervals.begin() + static_cast<std::ptrdiff_t>(k));
-            --k;
-        }
+    Dexel& own = intervals[at];
+    const Dexel above{high, own.high};
+    own.high = low;
+    const bool has_below = own.low < own.high;
+    const auto next = intervals.begin() + static_cast<std::ptrdiff_t>(at);
+    if (above.low < above.high && has_below) {
+        intervals.insert(next + 1, above);
+        ++at;
+    } else if (above.low < above.high) {
+        own = above;
+    } else if (!has_below) {
+        intervals.erase(next);
     }
 }
 
@@ -142,31 +139,33 @@ Dexel DexelMap::block_on(Vec3 from, Vec3 along) const {
 
 // Squares that the line passes below all that was cut there, or through air alone, are passed at once: tiles, then
 // their squares, then cells; so are the gaps between intervals.
-void DexelMap::remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along) const {
+void DexelMap::remove_from(std::vector<Dexel>& intervals, const MapLine& line, const Dexel& within) const {
     constexpr auto side = DexelTile::side;
-    const MapLine line{from, along, 1 / along.x, 1 / along.y, 1 / along.z};
     const double nudge = 1e-9 * cell_;
     const double per_cell = 1 / cell_;
-    double t = intervals.empty() ? infinite : intervals.front().low;
+    const double columns = double(tiles_x_) * side;
+    const double rows = double(tiles_y_) * side;
+    std::size_t interval = 0;
+    double t = within.low;
     while (true) {
-        const auto stock_model =
-            std::find_if(intervals.begin(), intervals.end(), [&](const Dexel& i) { return i.high > t; });
-        if (stock_model == intervals.end()) return;
-        t = std::max(t, stock_model->low);
-        const double end = stock_model->high;
+        while (interval < intervals.size() && intervals[interval].high <= t) ++interval;
+        if (interval == intervals.size()) return;
+        t = std::max(t, intervals[interval].low);
+        const double end = std::min(intervals[interval].high, within.high);
+        if (t >= end) return;
         const double middle = t + nudge;
-        const double i = std::floor((from.x + middle * along.x - x_min_) * per_cell);
-        const double j = std::floor((from.y + middle * along.y - y_min_) * per_cell);
-        if (!(i >= 0 && j >= 0 && i < double(tiles_x_) * side && j < double(tiles_y_) * side)) return;
+        const double i = (line.from.x + middle * line.along.x - x_min_) * per_cell;
+        const double j = (line.from.y + middle * line.along.y - y_min_) * per_cell;
+        if (!(i >= 0 && j >= 0 && i < columns && j < rows)) return;
         const auto ci = static_cast<std::int32_t>(i);
         const auto cj = static_cast<std::int32_t>(j);
         const DexelTile* here = tile(ci / side, cj / side);
         double next = leaves_square(line, ci, cj, side, middle, end);
         if (here != nullptr && here->min_cut < line.highest(t, next)) {
             if (here->max_cut < line.lowest(t, next)) {
-                subtract(intervals, t, next);
+                subtract(intervals, interval, t, next);
             } else {
-                next = remove_in_square(intervals, line, *here, {ci, cj}, t, end);
+                next = remove_in_square(intervals, interval, line, *here, {ci, cj}, {t, end});
             }
         }
         t = next;
@@ -174,27 +173,28 @@ void DexelMap::remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along)
 }
 
 // Returns where the part of the line that was done ends: in the square, cell by cell, unless it is passed at once.
-double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
-                                  double t, double end) const {
+double DexelMap::remove_in_square(std::vector<Dexel>& intervals, std::size_t& interval, const MapLine& line,
+                                  const DexelTile& here, MapCell at, const Dexel& part) const {
     constexpr auto side = DexelTile::side;
     const double nudge = 1e-9 * cell_;
     const double per_cell = 1 / cell_;
+    double t = part.low;
     const std::size_t square = DexelTile::square_of_cut(at.i % side, at.j % side);
-    const double left = leaves_square(line, at.i, at.j, DexelTile::square, t + nudge, end);
+    const double left = leaves_square(line, at.i, at.j, DexelTile::square, t + nudge, part.high);
     if (here.min_of_square[square] >= line.highest(t, left)) return left;
     if (here.max_of_square[square] < line.lowest(t, left)) {
-        subtract(intervals, t, left);
+        subtract(intervals, interval, t, left);
         return left;
     }
     MapCell cell = at;
     while (true) {
-        const double next = leaves_square(line, cell.i, cell.j, 1, t + nudge, end);
+        const double next = leaves_square(line, cell.i, cell.j, 1, t + nudge, part.high);
         const double cut =
             here.cut[static_cast<std::size_t>(cell.j % side) * side + static_cast<std::size_t>(cell.i % side)];
         const double crossing = line.along.z != 0 ? (cut - line.from.z) * line.per_z : infinite;
-        if (line.along.z > 0) subtract(intervals, std::max(t, crossing), next);
-        if (line.along.z < 0) subtract(intervals, t, std::min(next, crossing));
-        if (line.along.z == 0 && line.from.z > cut) subtract(intervals, t, next);
+        if (line.along.z > 0) subtract(intervals, interval, std::max(t, crossing), next);
+        if (line.along.z < 0) subtract(intervals, interval, t, std::min(next, crossing));
+        if (line.along.z == 0 && line.from.z > cut) subtract(intervals, interval, t, next);
         if (next >= left) return next;
         t = next;
         const double i = (line.from.x + (t + nudge) * line.along.x - x_min_) * per_cell;
@@ -207,31 +207,40 @@ double DexelMap::remove_in_square(std::vector<Dexel>& intervals, const MapLine& 
     }
 }
 
-bool DexelMap::is_cut_below(double height, const MapRectangle& within) const {
+DexelMap::Removed DexelMap::removed_in(const Dexel& heights, const MapRectangle& within) const {
     constexpr std::int32_t squares = DexelTile::side / DexelTile::square;  // of a tile, each way
     const auto square_of = [&](double at, double begin, std::int32_t tiles) {
-        const double square = std::floor((at - begin) / cell_ / DexelTile::square);
+        const double square = (at - begin) / cell_ / DexelTile::square;
         return static_cast<std::int32_t>(std::clamp(square, 0.0, static_cast<double>(tiles * squares - 1)));
     };
+    const std::int32_t i_begin = square_of(within.x_min, x_min_, tiles_x_);
     const std::int32_t i_end = square_of(within.x_max, x_min_, tiles_x_);
     const std::int32_t j_end = square_of(within.y_max, y_min_, tiles_y_);
+    bool is_some = false;
+    bool is_all = true;
     for (std::int32_t j = square_of(within.y_min, y_min_, tiles_y_); j <= j_end; ++j) {
-        for (std::int32_t i = square_of(within.x_min, x_min_, tiles_x_); i <= i_end; ++i) {
+        for (std::int32_t i = i_begin; i <= i_end; ++i) {
             const DexelTile* here = tile(i / squares, j / squares);
-            if (here == nullptr) continue;
-            const auto in_tile =
-                static_cast<std::size_t>(j % squares) * squares + static_cast<std::size_t>(i % squares);
-            if (static_cast<double>(here->min_of_square[in_tile]) < height) return true;
+            if (here != nullptr) {
+                const auto in_tile =
+                    static_cast<std::size_t>(j % squares) * squares + static_cast<std::size_t>(i % squares);
+                is_some |= static_cast<double>(here->min_of_square[in_tile]) < heights.high;
+                is_all &= static_cast<double>(here->max_of_square[in_tile]) < heights.low;
+            } else {
+                is_all = false;
+            }
+            if (is_some && !is_all) return Removed::some;
         }
     }
-    return false;
+    return is_some ? Removed::all : Removed::none;
 }
 
 double DexelMap::distance_to_removed(Vec3 point, double most) const {
     constexpr auto side = DexelTile::side;
     const bool is_within_few_squares = most <= DexelTile::square * cell_;
     const MapRectangle about{point.x - most, point.x + most, point.y - most, point.y + most};
-    if (is_within_few_squares && !is_cut_below(point.z + most, about)) return most;
+    const Dexel height{point.z + most, point.z + most};
+    if (is_within_few_squares && removed_in(height, about) == Removed::none) return most;
     return distance_to_cells(point, x_min_, y_min_, cell_, most, [&](std::int32_t i, std::int32_t j) {
         const bool is_in = i >= 0 && j >= 0 && i < tiles_x_ * side && j < tiles_y_ * side;
         const DexelTile* here = is_in ? tile(i / side, j / side) : nullptr;

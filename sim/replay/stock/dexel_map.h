@@ -41,10 +41,12 @@ struct DexelTile {
     float max_cut = std::numeric_limits<float>::infinity();
     std::uint64_t lowered_squares = 0;  // a bit per square: since measure_most
     std::uint64_t version = 0;          // of the other maps to which `known_from` refers; 0: there are no columns
-    // Of the columns of a square of 8 x 8 cells, slab by slab from the top of the map down: a bit for each other map
-    // that may have removed something there, once it is known (dexel_columns.h).
+    // Of the columns of a square of 8 x 8 cells, slab by slab from the top of the map down, once it is known
+    // (dexel_columns.h): whether one of the other maps has removed all of it, or else a bit for each of them that may
+    // have removed something there.
     struct Slab {
-        std::uint64_t known = 0;  // a bit per square
+        std::uint64_t known = 0;    // a bit per square
+        std::uint64_t removed = 0;  // likewise
         std::array<std::uint16_t, cells / (square * square)> met{};
     };
     std::vector<Slab> slabs;
@@ -64,20 +66,39 @@ struct DexelTile {
         min_of_square[in] = std::min(min_of_square[in], height);
         lowered_squares |= std::uint64_t{1} << in;
     }
-    // The same of the cells of a row of a square, from its first one on, where that lowers them. In lanes, which
-    // compilers turn into vectors.
-    void lower_cuts(std::size_t first, const std::array<float, square>& heights) {
-        float* own = &cut[first];
-        std::array<float, square> lower;
-        for (std::size_t k = 0; k < lower.size(); ++k) lower[k] = heights[k] < own[k] ? heights[k] : own[k];
-        for (std::size_t k = 0; k < lower.size(); ++k) own[k] = lower[k];
-        for (std::size_t k = 0; k < 4; ++k) lower[k] = lower[k + 4] < lower[k] ? lower[k + 4] : lower[k];
-        const float least = std::min(std::min(lower[0], lower[1]), std::min(lower[2], lower[3]));
-        min_cut = std::min(min_cut, least);
-        const std::size_t in =
-            square_of_cut(static_cast<std::int32_t>(first) % side, static_cast<std::int32_t>(first) / side);
-        min_of_square[in] = std::min(min_of_square[in], least);
-        lowered_squares |= std::uint64_t{1} << in;
+    // The lanes of a row of a square.
+    using Lanes = std::array<float, square>;
+    // The same of the cells of a row of a square, from its first one on, where that lowers them; in how many of their
+    // columns foam stands higher, and in which. `least` is lowered to the least of them, which note_lowered() is to be
+    // told. In lanes, which compilers turn into vectors.
+    int lower_cuts(std::size_t first, const Lanes& heights, std::array<std::int32_t, square>& stands, Lanes& least) {
+        Lanes own;
+        Lanes bottom;
+        Lanes above;
+        std::copy_n(&cut[first], square, own.begin());
+        std::copy_n(&low[first], square, bottom.begin());
+        std::copy_n(&high[first], square, above.begin());
+        Lanes lowest = least;
+        std::array<std::int32_t, square> higher;
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            const float z = heights[k];
+            const float under = above[k] < own[k] ? above[k] : own[k];  // what is lowered now alone
+            higher[k] = (z < under ? 1 : 0) & (bottom[k] < above[k] ? 1 : 0);
+            own[k] = z < own[k] ? z : own[k];
+            lowest[k] = own[k] < lowest[k] ? own[k] : lowest[k];
+        }
+        int standing = 0;
+        for (const std::int32_t one : higher) standing += one;
+        std::copy_n(own.begin(), square, &cut[first]);
+        least = lowest;
+        stands = higher;
+        return standing;
+    }
+    void note_lowered(std::size_t in_square, const Lanes& least) {
+        const float lowest = *std::min_element(least.begin(), least.end());
+        min_cut = std::min(min_cut, lowest);
+        min_of_square[in_square] = std::min(min_of_square[in_square], lowest);
+        lowered_squares |= std::uint64_t{1} << in_square;
     }
     void measure_most();
     // Of the columns of the square of `top` that begins with a cell.
@@ -134,6 +155,21 @@ double distance_to_cells(Vec3 point, double x_min, double y_min, double cell, do
     return best;
 }
 
+// A line through a map, in its frame.
+struct MapLine {
+    Vec3 from;
+    Vec3 along;
+    double per_x = 0;  // 1 / along
+    double per_y = 0;
+    double per_z = 0;
+
+    MapLine(Vec3 start, Vec3 unit)
+        : from(start), along(unit), per_x(1 / unit.x), per_y(1 / unit.y), per_z(1 / unit.z) {}
+    // Between two places of the line.
+    double highest(double t, double next) const { return from.z + along.z * (along.z > 0 ? next : t); }
+    double lowest(double t, double next) const { return from.z + along.z * (along.z > 0 ? t : next); }
+};
+
 class DexelMap {
  public:
     DexelMap(const Box& block, Vec3 tool_axis, double cell);
@@ -148,10 +184,13 @@ class DexelMap {
     std::int32_t tiles_y() const { return tiles_y_; }
     // Height to which the cell of a point is cleared; infinite outside.
     float cut_at(double x, double y) const;
-    // Takes from the intervals what was removed along this direction. The line is from + t * along, in this frame.
-    void remove_from(std::vector<Dexel>& intervals, Vec3 from, Vec3 along) const;
-    // Whether a cell of the squares of 8 x 8 cells that hold points of a rectangle was cleared below a height.
-    bool is_cut_below(double height, const MapRectangle& within) const;
+    // Takes from the intervals of a line, ascending and apart, what was removed along this direction between two
+    // places of the line.
+    void remove_from(std::vector<Dexel>& intervals, const MapLine& line, const Dexel& within) const;
+    // What was removed between two heights in the squares of 8 x 8 cells that hold points of a rectangle: none and all
+    // are certain. What lies beyond the map is left out.
+    enum class Removed { none, some, all };
+    Removed removed_in(const Dexel& heights, const MapRectangle& within) const;
     // Distance from a point of this frame to the nearest removed point of it, at most `most`.
     double distance_to_removed(Vec3 point, double most) const;
     // Where the line meets the block; empty if it does not.
@@ -164,21 +203,12 @@ class DexelMap {
     std::uint64_t version = 1;  // grows with every change
 
  private:
-    struct MapLine {
-        Vec3 from;
-        Vec3 along;
-        double per_x = 0;  // 1 / along
-        double per_y = 0;
-        double per_z = 0;
-        double highest(double t, double next) const { return from.z + along.z * (along.z > 0 ? next : t); }
-        double lowest(double t, double next) const { return from.z + along.z * (along.z > 0 ? t : next); }
-    };
     struct MapCell {
         std::int32_t i = 0;
         std::int32_t j = 0;
     };
-    double remove_in_square(std::vector<Dexel>& intervals, const MapLine& line, const DexelTile& here, MapCell at,
-                            double t, double end) const;
+    double remove_in_square(std::vector<Dexel>& intervals, std::size_t& interval, const MapLine& line,
+                            const DexelTile& here, MapCell at, const Dexel& part) const;
     // From t on, where in a square of `step` cells, a power of 2, the line leaves it, but not beyond `end`.
     double leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
                          double end) const {

@@ -6,8 +6,10 @@
 #include "sim/replay/stock/stock_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -25,9 +27,6 @@ constexpr std::int32_t square = DexelTile::top_square;
 std::size_t cell_of(std::int32_t i, std::int32_t j) {
     return static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
 }
-
-// mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
-constexpr double known_below = 8;
 
 }  // namespace
 
@@ -70,7 +69,7 @@ void for_tiles(DexelColumns& columns, const CellRange& cells, const Work& work) 
 // A cutter that goes straight over the cells of a map.
 class SweepOverMap {
  public:
-    using Row = std::array<float, DexelTile::square>;
+    using Row = DexelTile::Lanes;
 
     // From a place of the map's frame.
     SweepOverMap(const Cutter& cutter, Vec3 from, Vec3 move, const DexelMap& map)
@@ -125,11 +124,14 @@ class SweepOverMap {
         SweptCutter::Row over;
         for (std::int32_t k = 0; k < DexelTile::square; ++k) at[static_cast<std::size_t>(k)] = x_of(x + k);
         swept_.heights(at, y_of(y), over);
-        int below = 0;
-        for (std::size_t k = 0; k < z.size(); ++k) {
-            z[k] = static_cast<float>(over[k] + from_.z);
-            below += z[k] < heights[k] ? 1 : 0;
-        }
+        Row own;
+        std::copy_n(heights, own.size(), own.begin());
+        Row single;
+        const double from_z = from_.z;
+        for (std::size_t k = 0; k < single.size(); ++k) single[k] = static_cast<float>(over[k] + from_z);
+        std::int32_t below = 0;
+        for (std::size_t k = 0; k < single.size(); ++k) below += single[k] < own[k] ? 1 : 0;
+        z = single;
         return below > 0;
     }
     SweptCutter::Height height(std::int32_t x, std::int32_t y) const { return swept_.height(x_of(x), y_of(y)); }
@@ -156,6 +158,28 @@ void for_squares(const CellRange& cells, const Work& work) {
     }
 }
 
+// Lowers the cells of some rows of a square to a sweep: lower_column(tile, cell, z) is called where foam may stand
+// higher. `at` counts squares, `rows` cells of the tile from the first column of the square on.
+template <class LowerColumn>
+void lower_square(const SweepOverMap& sweep, DexelTile& tile, TileCell at, const CellRange& rows,
+                  const LowerColumn& lower_column) {
+    SweepOverMap::Row z;
+    SweepOverMap::Row lowest;
+    lowest.fill(std::numeric_limits<float>::infinity());
+    std::array<std::int32_t, DexelTile::square> stands{};
+    bool is_lowered = false;
+    for (std::int32_t j = rows.y_begin; j < rows.y_end; ++j) {
+        const std::size_t first = cell_of(rows.x_begin, j);
+        if (!sweep.is_below(at.tx * side + rows.x_begin, at.ty * side + j, &tile.cut[first], z)) continue;
+        is_lowered = true;
+        if (tile.lower_cuts(first, z, stands, lowest) == 0) continue;
+        for (std::size_t k = 0; k < z.size(); ++k) {
+            if (stands[k] != 0) lower_column(tile, TileCell{at.tx, at.ty, first + k}, z[k]);
+        }
+    }
+    if (is_lowered) tile.note_lowered(at.cell, lowest);
+}
+
 CellRange moved_by(const CellRange& cells, std::int32_t x, std::int32_t y) {
     return {cells.x_begin + x, cells.x_end + x, cells.y_begin + y, cells.y_end + y};
 }
@@ -177,9 +201,9 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
     double length = 0;
     const CellRange cells = sweep.cells();
     const double least = sweep.least();
-    const auto lower_column = [&](DexelTile& tile, TileCell at, double z) {
+    const auto lower_column = [&](DexelTile& tile, TileCell at, float z) {
         const std::size_t cell = at.cell;
-        columns.know(tile, at, z - known_below);
+        columns.know(tile, at, z);
         const ColumnRemoval removal = DexelColumns::lower(tile, cell, z);
         length += removal.length;
         if (removal.length <= contact_mm) return;
@@ -193,23 +217,15 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
         result.depth = std::max(result.depth, depth);
         if (depth > flute) deep.push_back(move.x * sweep.x_of(x) + move.y * sweep.y_of(y));
     };
-    SweepOverMap::Row z;
     for_tiles(columns, cells, [&](DexelTile& tile, std::int32_t tx, std::int32_t ty) {
         if (tile.max_cut <= least) return;
         const CellRange own = moved_by(cells, -tx * side, -ty * side);
         for_squares(own, [&](std::int32_t x, std::int32_t y) {
-            const float most = tile.max_of_square[DexelTile::square_of_cut(x, y)];
+            const std::size_t in_square = DexelTile::square_of_cut(x, y);
+            const float most = tile.max_of_square[in_square];
             if (most <= least || most <= sweep.least_in_square(tx * side + x, ty * side + y, is_begun)) return;
-            for (std::int32_t j = std::max(y, own.y_begin); j < std::min(y + DexelTile::square, own.y_end); ++j) {
-                const std::size_t first = cell_of(x, j);
-                if (!sweep.is_below(tx * side + x, ty * side + j, &tile.cut[first], z)) continue;
-                for (std::size_t k = 0; k < z.size(); ++k) {
-                    const std::size_t cell = first + k;
-                    const bool stands = tile.high[cell] > z[k] && tile.low[cell] < tile.high[cell];
-                    if (stands && z[k] < tile.cut[cell]) lower_column(tile, {tx, ty, cell}, z[k]);
-                }
-                tile.lower_cuts(first, z);
-            }
+            const CellRange rows{x, x, std::max(y, own.y_begin), std::min(y + DexelTile::square, own.y_end)};
+            lower_square(sweep, tile, {tx, ty, in_square}, rows, lower_column);
         });
         tile.measure_most();
     });
@@ -243,7 +259,7 @@ double StockModel::disc_contact(std::size_t orientation, double radius, double a
                     if (!(tile.low[cell] < tile.high[cell]) || tile.high[cell] <= least + worst) continue;
                     const double underside = a.z + disc.height(tx * side + i, ty * side + j).z;
                     if (!(tile.high[cell] - underside > worst)) continue;
-                    columns.know(tile, {tx, ty, cell}, underside + worst - known_below);
+                    columns.know(tile, {tx, ty, cell}, underside + worst);
                     if (tile.low[cell] < tile.high[cell]) worst = std::max(worst, tile.high[cell] - underside);
                 }
             }
@@ -339,8 +355,8 @@ std::vector<Dexel> StockModel::on_line(Vec3 from, Vec3 along, double low, double
         stock_model.push_back({std::max(low, inside.low), std::min(high, inside.high)});
     }
     for (const auto& map : maps_) {
-        map->remove_from(stock_model, apply_inverse(map->frame_in_block, from),
-                         rotate_inverse(map->frame_in_block, along));
+        const MapLine line(apply_inverse(map->frame_in_block, from), rotate_inverse(map->frame_in_block, along));
+        map->remove_from(stock_model, line, {low, high});
     }
     return stock_model;
 }

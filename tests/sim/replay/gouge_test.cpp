@@ -68,6 +68,24 @@ TEST(Gouge, IsThatOfManyPointsAndPlaces) {
     EXPECT_GT(deep, 15);
 }
 
+// Places of a ball and points about it, also of moves that go nowhere or straight down.
+TEST(Gouge, ABallIsBeyondAPointByItsDistanceFromIt) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> in(-9, 9);
+    std::array<int, 2> count{};
+    for (int i = 0; i < 20'000; ++i) {
+        Vec3 move{in(random), in(random), i % 4 == 0 ? 0 : in(random)};
+        if (i % 7 == 0) move = {0, 0, i % 2 == 0 ? move.z : 0};
+        const SweptCutter swept(cutters[0], move);
+        const Vec3 point{in(random), in(random), in(random)};
+        const double distance = swept.distance(point);
+        EXPECT_TRUE(swept.is_ball_beyond(point, distance - 1e-9)) << i;
+        EXPECT_FALSE(distance > -6 + 1e-9 && swept.is_ball_beyond(point, distance + 1e-9)) << i;
+        ++count[distance < 0 ? 0 : 1];
+    }
+    EXPECT_GT(std::min(count[0], count[1]), 2000) << "inside and outside";
+}
+
 TEST(Gouge, OfAPlaneIsTheDepthBelowIt) {
     const std::array<Vec3, 3> plane{Vec3{-50, -50, 0.3}, Vec3{50, -50, 0.3}, Vec3{0, 60, 0.3}};
     for (const Cutter& cutter : {cutters[0], cutters[1], cutters[2]}) {

@@ -211,6 +211,44 @@ TEST(StockModel, AStrokeRemovesTheFoamThatAllDirectionsLeftThere) {
     EXPECT_GT(all, 10'000) << "the strokes meet foam";
 }
 
+// Two directions mill deep slots, of which whole slabs of a third one's columns are gone; it comes down in steps.
+TEST(StockModel, AColumnIsWhatIsLeftBetweenDeepSlotsOfOthers) {
+    constexpr double cell = 0.5;
+    const Box tall{{-60, -60, -80}, {60, 60, 40}};
+    const std::vector<Vec3> axes{{0, 0, 1}, {1, 0, 0}, normalized(Vec3{0.2, 1, 0.3})};
+    StockModel stock_model(tall, axes, cell);
+    const auto cut_along = [&](std::size_t d, Vec3 from, Vec3 to) {
+        const Pose& frame = stock_model.frame_in_block(d);
+        return stock_model.cut(d, flat, long_flute, apply(frame, from), apply(frame, to)).volume;
+    };
+    for (const double y : {-30.0, -12.0, 25.0}) cut_along(1, {y, -70, -50}, {y, 30, -40});
+    for (const double x : {-20.0, 15.0}) cut_along(2, {x, -70, -10}, {x, 60, 5});
+    const auto foam = [&] {
+        double length = 0;
+        for (double x = -59.75; x < 60; x += cell) {
+            for (double y = -59.75; y < 60; y += cell) {
+                for (const Dexel& part : stock_model.on_line({x, y, 0}, {0, 0, 1}, -100, 100)) {
+                    length += part.high - part.low;
+                }
+            }
+        }
+        return length * cell * cell;
+    };
+    double left = foam();
+    EXPECT_LT(left, 0.8 * 120 * 120 * 120) << "the slots are there";
+    for (const double z : {35.0, 33.0, 20.0, -5.0, -6.0, -55.0}) {
+        double removed = 0;
+        for (const double y : {-35.0, -18.0, 0.0, 17.0, 40.0}) {
+            removed += cut_along(0, {-70, y, z}, {10, y + 4, z});
+            removed += cut_along(0, {10, y + 4, z}, {70, y, z - 3});
+        }
+        const double now = foam();
+        EXPECT_NEAR(removed, left - now, 1e-5 * left) << z;
+        EXPECT_GT(removed, 1000);
+        left = now;
+    }
+}
+
 TEST(StockModel, TwoDirectionsTogetherLeaveWhatNeitherRemoves) {
     const double tilt = 40 * std::numbers::pi / 180;
     const std::vector<Vec3> tool_axes{{0, 0, 1}, {0, std::sin(tilt), std::cos(tilt)}};
