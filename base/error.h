@@ -7,6 +7,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "base/sentence.h"
 
 namespace qchopper {
 
@@ -22,12 +25,13 @@ enum class InputFault {
 
 class InputError : public std::runtime_error {
  public:
-    // `what_failed` names the file or the piece and the reason; `to_do_next` is one sentence on the remedy, or empty.
-    InputError(InputFault fault_kind, const std::string& what_failed, std::string to_do_next = {})
+    // `what_failed` names the file or the piece and the reason; `to_do_next` is one sentence on the remedy, or empty:
+    // with a key where the remedy is an option of the command line.
+    InputError(InputFault fault_kind, const std::string& what_failed, Sentence to_do_next = {})
         : std::runtime_error(what_failed), fault(fault_kind), to_do(std::move(to_do_next)) {}
 
     InputFault fault;
-    std::string to_do;
+    Sentence to_do;
 };
 
 }  // namespace qchopper

@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     try {
         make_table(choice);
     } catch (const InputError& error) {
-        std::cerr << error.what() << ". To do: " << error.to_do << std::endl;
+        std::cerr << error.what() << ". To do: " << error.to_do.text << std::endl;
         return 65;
     }
     return 0;

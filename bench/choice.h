@@ -53,7 +53,7 @@ int print_figures(int argc, char** argv, const char* usage, const Measure& measu
     try {
         measure(choice, figures);
     } catch (const InputError& error) {
-        std::cerr << error.what() << ". To do: " << error.to_do << std::endl;
+        std::cerr << error.what() << ". To do: " << error.to_do.text << std::endl;
         return 65;
     }
     figures.print(std::cout);

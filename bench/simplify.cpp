@@ -1,5 +1,5 @@
-// Measures simplification to a number of faces, and its deviation, beside meshoptimizer: every figure is taken in this
-// one run, on one thread, and the ratios are between figures of this run.
+// Measures simplification to a number of faces, and its deviation, beside meshoptimizer, and vertex clustering beside
+// simplification: every figure is taken in this one run, on one thread, and the ratios are between figures of this run.
 
 #include "segment/simplify/simplify.h"
 
@@ -12,7 +12,9 @@
 #include "bench/other_simplifiers.h"
 #include "segment/sample/sample.h"
 #include "segment/simplify/collapse.h"
+#include "segment/simplify/collapse_passes.h"
 #include "segment/simplify/sampled_deviation.h"
+#include "segment/simplify/vertex_clustering.h"
 
 namespace {
 
@@ -21,7 +23,7 @@ using namespace qchopper::bench;
 
 constexpr const char* usage = R"(bench_simplify [--small] [--only GROUP]...
   --small  20,000 and 190,000 faces instead, to check that it runs; the targets do not apply
-  --only   passes or queue; both if none is named. queue is the slower way, for its deviation
+  --only   passes, queue or clustering; all if none is named. queue is the slower way, for its deviation
 )";
 
 constexpr int runs = 3;
@@ -75,6 +77,18 @@ void measure_queue(const std::string& name, const TriangleMesh& mesh, std::size_
     figures.record(name, "deviation of the queue", mm(deviation_of(mesh, fewer)));
 }
 
+void measure_clustering(const std::string& name, const TriangleMesh& mesh, std::size_t faces, Figures& figures) {
+    ClusteredMesh clustered;
+    const double ours = best_of(runs, cpu_s, [&] {
+        clustered = cluster_to(faces, mesh);
+        return clustered.mesh.triangles.size();
+    });
+    const double passes = best_of(runs, cpu_s, [&] { return collapse_in_passes(mesh, {}, faces).triangles.size(); });
+    figures.record(name, "faces left by clustering", std::to_string(clustered.mesh.triangles.size()));
+    figures.record(name, "clustered, and collapsed in passes, in", time_text(ours) + " and " + time_text(passes));
+    figures.at_most(name, "clustering / passes", ours / passes, 0.5);
+}
+
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
     const std::size_t faces = choice.is_small ? 5'000 : 50'000;
@@ -85,6 +99,7 @@ void measure(const Choice& choice, Figures& figures) {
         const std::string name = "skull " + number_text(static_cast<double>(skull.triangles.size()));
         if (choice.wants("passes")) measure_passes(name, skull, faces, figures);
         if (choice.wants("queue")) measure_queue(name, skull, faces, figures);
+        if (choice.wants("clustering")) measure_clustering(name, skull, 2 * faces, figures);
     }
 }
 

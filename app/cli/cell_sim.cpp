@@ -6,10 +6,12 @@
 #include <thread>
 
 #include "app/cli/arguments/check_arguments.h"
+#include "app/cli/arguments/option_values.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/standard_input_lines.h"
 #include "app/dispatch/simulated_limits.h"
+#include "app/report/command_line_text.h"
 #include "app/report/notices.h"
 #include "base/error.h"
 #include "base/printable.h"
@@ -18,14 +20,6 @@
 
 namespace qchopper {
 namespace {
-
-// An address as for a connection, but port 0 is allowed: any free port.
-TcpAddress listen_address(const std::string& text) {
-    if (!text.ends_with(":0")) return parse_tcp_address(text);
-    TcpAddress address = parse_tcp_address(text.substr(0, text.size() - 2));
-    address.port = 0;
-    return address;
-}
 
 CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& address) {
     CellSimOptions options;
@@ -53,7 +47,7 @@ void add_typed(StandardInputLines& input, std::size_t& count, ScriptRun& typed, 
         try {
             if (const auto parsed = parse_script_line(*line, ++count, "standard input")) typed.add(*parsed);
         } catch (const InputError& fault) {
-            terminal.error(std::string(fault.what()) + ". " + fault.to_do);
+            terminal.error(std::string(fault.what()) + ". " + command_line_text(fault.to_do));
         }
     }
 }

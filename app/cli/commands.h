@@ -36,6 +36,10 @@ int run(const DispatchArguments& arguments, Terminal& terminal);
 int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
 int run(const SchemaArguments& arguments, Terminal& terminal);
+int run(const ServeArguments& arguments, Terminal& terminal);
+int run(const ConsoleWorkerArguments& arguments, Terminal& terminal);
+int run(const ConsoleMeshArguments& arguments, Terminal& terminal);
+int run(const ConsolePaintArguments& arguments, Terminal& terminal);
 
 struct GatherAnswer;
 // For gather and submit: what prepare shows, or why it is not there yet.

@@ -3,11 +3,12 @@
 #include "app/cli/commands.h"
 #include "app/cli/confirm.h"
 #include "app/cli/exit_code.h"
+#include "app/report/command_line_text.h"
 
 namespace qchopper {
 
 int show(const DispatchReport& report, const std::string& schema, Terminal& terminal) {
-    for (const std::string& sentence : report.refused) terminal.error(sentence);
+    for (const Sentence& why : report.refused) terminal.error(command_line_text(why));
     terminal.show(report.refused.empty() ? lines(report) : std::vector<std::string>{"no job was sent"},
                   document(report, schema));
     if (!report.refused.empty()) return exit_demand_broken;

@@ -14,6 +14,7 @@
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/report/command_line_text.h"
 #include "app/report/notices.h"
 #include "base/parallel.h"
 #include "devices/wire/device_error.h"
@@ -44,10 +45,10 @@ constexpr ExitCode device_codes[] = {exit_unreachable, exit_protocol, exit_busy,
 static_assert(static_cast<std::size_t>(DeviceFault::refused) + 1 == std::size(device_codes));
 
 // One line: what failed and why; what is unchanged; what to do.
-int report(Terminal& terminal, const std::string& what, const std::string& to_do, int code) {
+int report(Terminal& terminal, const std::string& what, const Sentence& to_do, int code) {
     terminal.begin_end();
     std::string line = "qchopper: " + sentence(what) + " " + terminal.unchanged();
-    if (!to_do.empty()) line += " To do: " + sentence(to_do);
+    if (!to_do.empty()) line += " To do: " + sentence(command_line_text(to_do));
     for (char& c : line) {
         if (c == '\n' || c == '\r') c = ' ';  // names from files may contain line breaks
     }
@@ -67,7 +68,8 @@ bool may_end_anywhere(const Arguments& arguments) {
     const auto* const submit = std::get_if<SubmitArguments>(&command);
     if (submit != nullptr && submit->engine == "local") return false;
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
-           !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<CellControlArguments>(command);
+           !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<ServeArguments>(command) &&
+           !std::holds_alternative<CellControlArguments>(command);
 }
 
 // Throws nothing.
@@ -94,7 +96,7 @@ int run_program(int argc, const char* const* argv) {
                       "free space on the disk, or write it to another place", exit_io);
     } catch (const InputError& e) {
         const FaultRow& row = fault_rows[static_cast<std::size_t>(e.fault)];
-        return report(terminal, e.what(), e.to_do.empty() ? row.remedy : e.to_do, row.code);
+        return report(terminal, e.what(), e.to_do.empty() ? Sentence(row.remedy) : e.to_do, row.code);
     } catch (const DeviceError& e) {
         return report(terminal, e.what(), e.to_do, device_codes[static_cast<std::size_t>(e.fault)]);
     } catch (const Cancelled&) {

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "app/cli/exit_code.h"
+#include "app/report/command_line_text.h"
 #include "app/report/timings_report.h"
 #include "base/files/unfinished.h"
 #include "base/printable.h"
@@ -47,7 +48,7 @@ static_assert(std::atomic<DocumentState>::is_always_lock_free && std::atomic<lon
 
 constexpr char document_of_second_signal[] =
     R"({"schema":"qchopper-error-1","error":"stopped by a second signal","unchanged":"What was saved is kept.",)"
-    R"("to_do":"","exit_code":130})"
+    R"("to_do":"","remedy":null,"exit_code":130})"
     "\n";
 static_assert(exit_interrupted == 130);
 
@@ -345,8 +346,8 @@ ProjectContext Terminal::context() {
     context.timings = timings_ ? &*timings_ : nullptr;
     context.on_progress = [this](const Progress& p) { progress(p); };
     context.on_message = [this](const std::string& line) { message(line); };
-    context.on_warning = [this](const std::string& line) { warn(line); };
-    context.on_saved = [this](const std::string& sentence) { set_unchanged(sentence); };
+    context.on_warning = [this](const Sentence& line) { warn(command_line_text(line)); };
+    context.on_saved = [this](const Sentence& sentence) { set_unchanged(command_line_text(sentence)); };
     return context;
 }
 

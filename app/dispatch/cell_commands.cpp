@@ -34,7 +34,8 @@ CellCommand command_of(const std::string& name) {
     for (const CellAction& action : actions) {
         if (name == action.name) return action.command;
     }
-    throw InputError(InputFault::use, name + " is no command to a cell", "see qchopper cell --help");
+    throw InputError(InputFault::use, name + " is no command to a cell",
+                     Sentence::with_key("help_of_cell", {}, "give one of the commands to a cell"));
 }
 
 // What the operator must know of the command beside its end. `before` is STATUS as it was then, `own` our OWNER number
@@ -95,7 +96,9 @@ CellControlReport ask_running(const std::string& action, CellCommand command, co
     CellControlReport report =
         ended(report_of(action, cell), word_of(answer.end), "passed on by the running dispatcher: " + describe(answer));
     report.state.clear();
-    if (answer.end != CommandEnd::done) report.to_do = "Look at the cell: " + cell_command(cell.endpoint, "status");
+    if (answer.end != CommandEnd::done) {
+        report.to_do = Sentence::with_key("look_at_cell", {cell.endpoint}, "Look at the cell.");
+    }
     return report;
 }
 
@@ -157,9 +160,14 @@ CellControlReport accept_store(ContactedCell& cell, bool is_confirmed, const Ope
     for (JournalJob job : history.jobs) {
         if (!job.is_open()) continue;
         job.is_settled = true;
-        context.warn({left_open(job) + " With its memory gone nothing can be asked any more: look for the piece or a "
-                                       "block that is cut. The next dispatch starts this file only with --again."});
-        report.note = "What was open is not asked for any more, and carved only with --again.";
+        const std::string open =
+            left_open(job) +
+            " With its memory gone nothing can be asked any more: look for the piece or a block that is cut.";
+        context.warn(Sentence::with_key("open_job_is_lost", {open},
+                                        open + " The next dispatch starts this file only if that is asked for."));
+        report.note =
+            Sentence::with_key("open_jobs_are_settled", {},
+                               "What was open is not asked for any more, and carved only if that is asked for.");
     }
     const bool is_real = !cell.status.has(flag::simulated);
     if (is_real && !is_confirmed &&

@@ -32,8 +32,8 @@ struct CellControlReport {
     std::string end;     // "done", "refused", "unknown"
     std::string why;
     std::string result;  // "LOCAL_CONTROL", or empty
-    std::string note;    // what the operator must know of the action, or empty
-    std::string to_do;   // empty if it was done
+    Sentence note;       // what the operator must know of the action, or empty
+    Sentence to_do;      // empty if it was done
     bool simulated = false;
     std::string state;  // of the machine, last read
 };

@@ -21,7 +21,10 @@ std::unique_ptr<ContactedCell> contact_cell(const CellChoice& choice, const Cont
     std::optional<Cell> cell;
     if (choice.cell_file) cell = read_cell(*choice.cell_file);
     const std::optional<std::string> to = choice.to ? choice.to : cell ? cell->link.to : std::nullopt;
-    if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT, or --cell FILE");
+    if (!to)
+        throw InputError(
+            InputFault::use, "no cell address is known",
+            Sentence::with_key("give_address_or_cell", {}, "give its address, or a cell file that has one"));
     auto contacted = std::make_unique<ContactedCell>(*to);
     contacted->status = first_status(contacted->bus, *to, context);
     const Status& status = contacted->status;

@@ -15,6 +15,7 @@
 #include "base/timings.h"
 #include "cam/job/read_job.h"
 #include "devices/hand_off/journal_history.h"
+#include "devices/hand_off/operator_text.h"
 #include "devices/wire/codec.h"
 
 namespace qchopper {
@@ -120,7 +121,9 @@ std::optional<JobOutcome> milled_before(const JournalHistory& history, const Pie
         outcome.may_be_milled = true;
         outcome.why = "whether the cell has carved this file before is UNKNOWN: it lost its memory of job " +
                       to_text(before->job_id) + ", which may have started";
-        outcome.to_do = "Look for the piece or a block that is cut. Where neither is there, pass --again.";
+        outcome.to_do = Sentence::with_key(
+            "look_for_piece", {},
+            "Look for the piece or a block that is cut. Where neither is there, ask for it to be carved again.");
         return outcome;
     }
     outcome.milled_before = true;
@@ -130,7 +133,7 @@ std::optional<JobOutcome> milled_before(const JournalHistory& history, const Pie
                                                   : "has started; its end is not known";
     outcome.why = "by the journal the cell has carved this file before: job " + to_text(before->job_id) + ", which " +
                   end + "; the cell itself no longer knows";
-    outcome.to_do = "Pass --again if it is to be carved once more.";
+    outcome.to_do = carve_again();
     return outcome;
 }
 

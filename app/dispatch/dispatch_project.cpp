@@ -16,38 +16,53 @@
 namespace qchopper {
 namespace {
 
-constexpr const char* nothing_started = "The project is unchanged, and this dispatch started no job.";
+// Each with what to do about it.
+std::vector<Sentence> with(const std::vector<std::string>& sentences, Sentence (*remedy)(const std::string&)) {
+    std::vector<Sentence> all;
+    all.reserve(sentences.size());
+    for (const std::string& sentence : sentences) all.push_back(remedy(sentence));
+    return all;
+}
 
-std::vector<std::string> with(std::vector<std::string> sentences, const char* what_to_do) {
-    for (std::string& sentence : sentences) sentence += what_to_do;
-    return sentences;
+std::vector<Sentence> plain_sentences(const std::vector<std::string>& sentences) {
+    return {sentences.begin(), sentences.end()};
+}
+
+Sentence held_by_more(const std::string& problem) {
+    return Sentence::with_key("accept_workholding", {problem},
+                              problem + "; it may be sent if the piece is held by more than that");
+}
+
+Sentence foam_may_stay(const std::string& problem) {
+    return Sentence::with_key("accept_unreachable", {problem},
+                              problem + "; it may be sent if the foam that stays there may stay");
 }
 
 // Asks where there is somebody to answer.
-std::vector<std::string> why_not_held(const std::vector<PieceJob>& jobs, const Operator& person,
-                                      const ProjectContext& context) {
-    std::vector<std::string> sentences = jobs_failing_workholding(jobs);
+std::vector<Sentence> why_not_held(const std::vector<PieceJob>& jobs, const Operator& person,
+                                   const ProjectContext& context) {
+    const std::vector<std::string> sentences = jobs_failing_workholding(jobs);
     if (sentences.empty()) return {};
     if (person.can_answer) {
         context.warn(sentences);
         if (person.confirm("Send " + std::to_string(jobs.size()) + " jobs, these among them?")) return {};
     }
-    return with(std::move(sentences), "; pass --accept-workholding if the piece is held by more than that");
+    return with(sentences, held_by_more);
 }
 
 // Checks 1 to 3: all jobs are looked at before the cell is. Empty: they may go to a simulated cell.
-std::vector<std::string> why_not_any_cell(const ProjectJobs& ordered, const DispatchRequest& request,
-                                          const Operator& person, const ProjectContext& context) {
-    std::vector<std::string> why = unproven_jobs(ordered, false);
+std::vector<Sentence> why_not_any_cell(const ProjectJobs& ordered, const DispatchRequest& request,
+                                       const Operator& person, const ProjectContext& context) {
+    std::vector<Sentence> why = plain_sentences(unproven_jobs(ordered, false));
     if (why.empty() && !request.accept_unreachable) {
-        why = with(unreachable_jobs(ordered.jobs), "; pass --accept-unreachable if the foam that stays there may stay");
+        why = with(unreachable_jobs(ordered.jobs), foam_may_stay);
     }
     if (why.empty() && !request.accept_workholding) why = why_not_held(ordered.jobs, person, context);
     return why;
 }
 
 // Leaves the job that is named by its bytes alone. Empty: it is there, or none was named.
-std::vector<std::string> why_not_that_job(ProjectJobs& ordered, const DispatchRequest& request) {
+std::vector<Sentence> why_not_that_job(ProjectJobs& ordered, const DispatchRequest& request) {
     if (!request.job) return {};
     std::erase_if(ordered.jobs, [&](const PieceJob& job) { return job.ticket.file_sha256 != *request.job; });
     if (!ordered.jobs.empty()) return {};
@@ -56,7 +71,7 @@ std::vector<std::string> why_not_that_job(ProjectJobs& ordered, const DispatchRe
 }
 
 // Check 5.
-std::vector<std::string> why_not_this_cell(const DispatchRequest& request, bool is_simulated, const std::string& to) {
+std::vector<Sentence> why_not_this_cell(const DispatchRequest& request, bool is_simulated, const std::string& to) {
     if (request.expects_simulated.value_or(is_simulated) == is_simulated) return {};
     return {"the cell at " + to +
             (is_simulated ? " is SIMULATED, and a real one is expected" : " is REAL, and a simulated one is expected")};
@@ -73,10 +88,10 @@ void refuse_uncertain(const Cell& cell) {
 }
 
 // Check 6.
-std::vector<std::string> why_not_real_cell(const ProjectJobs& ordered, const DispatchRequest& request,
-                                           const std::string& to, const Operator& person) {
+std::vector<Sentence> why_not_real_cell(const ProjectJobs& ordered, const DispatchRequest& request,
+                                        const std::string& to, const Operator& person) {
     refuse_uncertain(ordered.cell);
-    std::vector<std::string> why = unproven_jobs(ordered, true);
+    std::vector<Sentence> why = plain_sentences(unproven_jobs(ordered, true));
     if (!why.empty() || request.is_confirmed) return why;
     if (person.confirm("Hand " + std::to_string(ordered.jobs.size()) + " jobs to the REAL cell \"" + ordered.cell.name +
                        "\" at " + to + "?")) {
@@ -106,8 +121,9 @@ void check_drop_folder(const std::filesystem::path& drop, const Cell& cell, cons
     if (fault.empty()) return;
     say_what_is_open(cell, where, context);
     throw InputError(InputFault::create, fault,
-                     "mount its share or make it, or name the one of the cell with --drop DIR; small files can go over "
-                     "the link with --chunks");
+                     Sentence::with_key(
+                         "drop_folder", {},
+                         "mount its share or make it, or name the one of the cell; small files can go over the link"));
 }
 
 DispatchOptions options_of(const DispatchRequest& request, const Cell& cell, const Status& status) {
@@ -146,9 +162,12 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
     if (!answer.refused.empty()) return answer;
     const std::optional<std::string> to = request.to ? request.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = request.drop ? request.drop : cell.link.drop;
-    if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");
+    if (!to)
+        throw InputError(InputFault::use, "no cell address is known",
+                         Sentence::with_key("give_address", {}, "give its address"));
     if (!drop && !request.chunks) {
-        throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR, or --chunks");
+        throw InputError(InputFault::use, "no drop folder is known",
+                         Sentence::with_key("give_drop_folder", {}, "give it, or send the files over the link"));
     }
     ModbusTcpBus bus(parse_tcp_address(*to));
     if (!request.chunks) check_drop_folder(*drop, cell, *to, context);
@@ -159,7 +178,9 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
     if (!answer.refused.empty()) return answer;
     if (options.want_simulated) {
         context.message("the cell at " + *to + " is SIMULATED: nothing moves");
-        context.warn(with(simulated_only_jobs(ordered), "; a real cell would not get it"));
+        for (const std::string& sentence : simulated_only_jobs(ordered)) {
+            context.warn(sentence + "; a real cell would not get it");
+        }
     } else {
         answer.refused = why_not_real_cell(ordered, request, *to, person);
         if (!answer.refused.empty()) return answer;

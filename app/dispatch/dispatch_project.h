@@ -27,6 +27,9 @@
 
 namespace qchopper {
 
+// context.saved() of an error before any job of this dispatch could start begins with it.
+constexpr const char* nothing_started = "The project is unchanged, and this dispatch started no job.";
+
 struct DispatchRequest {
     std::filesystem::path project;
     std::optional<std::string> piece;           // nothing: all
@@ -45,9 +48,9 @@ struct DispatchRequest {
 
 struct DispatchAnswer {
     std::vector<DispatchedJob> handed;
-    std::size_t wanted = 0;            // jobs to be handed over
-    bool is_simulated = false;         // the cell; false if none was asked
-    std::vector<std::string> refused;  // why no job was sent; empty: they were
+    std::size_t wanted = 0;         // jobs to be handed over
+    bool is_simulated = false;      // the cell; false if none was asked
+    std::vector<Sentence> refused;  // why no job was sent; empty: they were
 };
 
 // What speaks against a job is an answer. Throws what jobs_of, dispatch_jobs and `person` throw; InputError: (use) no

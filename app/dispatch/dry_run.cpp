@@ -12,30 +12,31 @@
 namespace qchopper {
 namespace {
 
-std::string next_command(const ProjectJobs& ordered, const DryRunRequest& request) {
+Sentence next_step(const ProjectJobs& ordered, const DryRunRequest& request) {
     if (!unproven_jobs(ordered, false).empty() || !unreachable_jobs(ordered.jobs).empty()) return {};
     const Link& link = ordered.cell.link;
     std::error_code error;
-    std::string command = "qchopper dispatch " + shell_word(request.project);
-    if (request.piece) command += " --piece " + *request.piece;
-    if (!link.to) command += " --to HOST:PORT";
-    if (!link.drop || !std::filesystem::is_directory(*link.drop, error)) command += " --drop DIR";
-    return command;
+    const bool has_drop = link.drop && std::filesystem::is_directory(*link.drop, error);
+    return Sentence::with_key(
+        "dispatch",
+        {request.project.string(), request.piece.value_or(""), link.to ? "" : "HOST:PORT", has_drop ? "" : "DIR"},
+        "hand the jobs to the cell");
 }
 
 void warn_of(const ProjectJobs& ordered, const ProjectContext& context) {
     if (!ordered.is_finished) {
-        context.warn({ordered.folder.string() + " is not finished: of its jobs the " +
-                      std::to_string(ordered.jobs.size()) + " that are written so far are rehearsed"});
+        context.warn(ordered.folder.string() + " is not finished: of its jobs the " +
+                     std::to_string(ordered.jobs.size()) + " that are written so far are rehearsed");
     }
     for (const std::string& sentence : unproven_jobs(ordered, true)) {
-        context.warn({sentence + "; dispatch to a real cell refuses it"});
+        context.warn(sentence + "; dispatch to a real cell refuses it");
     }
     for (const std::string& sentence : unreachable_jobs(ordered.jobs)) {
-        context.warn({sentence + "; dispatch asks for --accept-unreachable"});
+        context.warn(Sentence::with_key("asks_accept_unreachable", {sentence},
+                                        sentence + "; dispatch asks whether that may stay"));
     }
     for (const std::string& sentence : jobs_failing_workholding(ordered.jobs)) {
-        context.warn({sentence + "; dispatch asks before it sends it"});
+        context.warn(sentence + "; dispatch asks before it sends it");
     }
 }
 
@@ -68,7 +69,7 @@ DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context
     const TemporaryFolder state("qchopper-dry-run-journal-");
     Journal journal(state.path(), {ordered.cell.id, true, "dry-run"});
     return {dispatch_jobs(ordered.jobs, bus, options, journal, context), ordered.jobs.size(),
-            next_command(ordered, request)};
+            next_step(ordered, request)};
 }
 
 }  // namespace qchopper

@@ -24,9 +24,9 @@ struct DryRunRequest {
 struct DryRunAnswer {
     std::vector<DispatchedJob> handed;
     std::size_t wanted = 0;  // jobs to be handed over
-    // The command that hands the jobs to a cell; "" if dispatch would refuse one. What the cell file does not tell
-    // stands in capitals, for a person to fill in.
-    std::string next;
+    // To hand the jobs to a cell, what the cell file does not tell in capitals, for a person to fill in; empty if
+    // dispatch would refuse one.
+    Sentence next;
 };
 
 // Throws what jobs_of and dispatch_jobs throw.

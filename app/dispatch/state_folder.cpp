@@ -11,21 +11,10 @@
 #include "devices/wire/modbus_tcp.h"
 
 namespace qchopper {
-namespace {
 
 namespace fs = std::filesystem;
 
-fs::path state_folder() {
-    const char* state = std::getenv("XDG_STATE_HOME");
-    if (state != nullptr && state[0] == '/') return fs::path(state) / "qchopper";
-    const char* home = std::getenv("HOME");
-    if (home == nullptr || home[0] != '/') {
-        throw InputError(InputFault::create,
-                         "there is no folder for the journal: neither XDG_STATE_HOME nor HOME is set",
-                         "Set XDG_STATE_HOME to a folder that stays.");
-    }
-    return fs::path(home) / ".local" / "state" / "qchopper";
-}
+namespace {
 
 // When the journal was written last; nothing if there is none.
 std::optional<fs::file_time_type> written_at(const JournalCell& cell) {
@@ -59,6 +48,18 @@ bool stands_for(const std::string& endpoint, const std::string& address) {
 }
 
 }  // namespace
+
+fs::path state_folder() {
+    const char* state = std::getenv("XDG_STATE_HOME");
+    if (state != nullptr && state[0] == '/') return fs::path(state) / "qchopper";
+    const char* home = std::getenv("HOME");
+    if (home == nullptr || home[0] != '/') {
+        throw InputError(InputFault::create,
+                         "there is no folder for the journal: neither XDG_STATE_HOME nor HOME is set",
+                         "Set XDG_STATE_HOME to a folder that stays.");
+    }
+    return fs::path(home) / ".local" / "state" / "qchopper";
+}
 
 std::filesystem::path journal_folder(const JournalCell& cell) {
     return state_folder() / folder_name(cell);

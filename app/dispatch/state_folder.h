@@ -13,6 +13,8 @@
 
 namespace qchopper {
 
+std::filesystem::path state_folder();
+
 // The folder of the journal of a cell, whether it exists or not.
 std::filesystem::path journal_folder(const JournalCell& cell);
 

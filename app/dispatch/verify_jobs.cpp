@@ -220,7 +220,8 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
     fs::path cell = cell_file.value_or(fs::absolute(job).parent_path().parent_path() / "cell.toml");
     std::error_code error;
     if (!cell_file && !fs::exists(cell, error)) {
-        throw InputError(InputFault::use, "no cell file is known for " + job.string(), "pass --cell FILE");
+        throw InputError(InputFault::use, "no cell file is known for " + job.string(),
+                         Sentence::with_key("give_cell_file", {}, "give the cell file"));
     }
     JobVerdict verdict = judge_job(read, job.string(), read_cell_file(cell), program_version, context);
     verdict.notes.emplace_back(

@@ -21,6 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+Sentence go_on_by_search(const std::string& kept) {
+    return Sentence::with_key("go_on_by_search", {kept}, kept + "; the search can go on.");
+}
+
 class RequestHandler {
  public:
     RequestHandler(OpenProject& project, const ProjectRequest& request, const ProjectContext& context)
@@ -80,7 +84,8 @@ class RequestHandler {
 
     void reset() {
         if (!project_.decide_reset()) return refuse("There is no cut to take back.");
-        answer_.done = "All cuts and discarded pieces are taken back; --undo brings them again.";
+        answer_.done = Sentence::with_key("taken_back", {},
+                                          "All cuts and discarded pieces are taken back; undo brings them again.");
     }
 
     void discard_pieces(const DiscardRequest& request) {
@@ -94,15 +99,18 @@ class RequestHandler {
         answer_.warnings = texts(warnings, warnings.size() - names.size());
         std::string list;
         for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-        answer_.done = "Discarded: " + list + "; --undo brings back what this decision left out.";
+        answer_.done = Sentence::with_key("discarded", {list},
+                                          "Discarded: " + list + "; undo brings back what this decision left out.");
     }
 
     std::size_t piece() {
         if (request_.piece) return index_of_piece(project_.segmentation(), *request_.piece);
         const OpenProject::Next next = project_.next(checks_);
         if (!next.piece) {
-            throw InputError(InputFault::mesh, "the scan holds nothing but fragments",
-                             "check the scan, or make the project again with a smaller --fragment-volume");
+            throw InputError(
+                InputFault::mesh, "the scan holds nothing but fragments",
+                Sentence::with_key("smaller_fragments", {},
+                                   "check the scan, or make the project again with a smaller volume of fragments"));
         }
         rules_hold_ = next.rules_hold;
         return *next.piece;
@@ -129,7 +137,7 @@ class RequestHandler {
             throw InputError(
                 InputFault::use,
                 "the ranking has no place " + std::to_string(k) + ", it ends at " + std::to_string(listed.size()),
-                "see it by --step");
+                Sentence::with_key("see_ranking", {}, "see the ranking"));
         }
         return listed[k - 1];
     }
@@ -201,6 +209,7 @@ class RequestHandler {
         preview.solids = project_.cache().evaluation_of(target, candidate, context_)->solids;
         preview.outline = outline(*target.mesh, r.plane);
         preview.sections_cross = crossing_regions(*target.mesh, r.plane) > 0;
+        if (request_.preview_setups) preview.setups = setups_of_plane(project_, p, r, context_);
         answer_.preview = std::move(preview);
     }
 
@@ -224,12 +233,14 @@ class RequestHandler {
         rules.max_cuts = request.max_cuts.value_or(project_.project().settings.stop.max_cuts);
         if (!rules.is_any_set() && checks_.fits_cell) rules.fits_cell = true;
         if (!rules.is_any_set()) {
-            throw InputError(InputFault::use, "no stop rule is set, so the search would never end",
-                             "pass --min-cuts N, --max-faces N, --max-obb X,Y,Z or --max-unreachable SHARE");
+            throw InputError(
+                InputFault::use, "no stop rule is set, so the search would never end",
+                Sentence::with_key("set_stop_rule", {},
+                                   "set one: a number of cuts, a number of faces, a size or a share out of reach"));
         }
         if (rules.fits_cell && !checks_.fits_cell) {
             throw InputError(InputFault::use, "the project has no cell, so fits-cell cannot be a stop rule",
-                             "name the cell: --cell FILE");
+                             Sentence::with_key("name_cell", {}, "name the cell"));
         }
         return rules;
     }
@@ -238,7 +249,7 @@ class RequestHandler {
         project_.set_search(rules_of(request), request.beam.value_or(project_.project().settings.beam));
         LoopObserver observer;
         observer.on_decision =
-            told_decisions(project_, "; go on by --auto.", project_.project().settings.beam > 1, context_);
+            told_decisions(project_, go_on_by_search, project_.project().settings.beam > 1, context_);
         LoopOptions options;
         options.last = LoopStep::cut;
         if (request.time_limit_s) options.time_limit.emplace(TimeLimit{*request.time_limit_s});
@@ -246,7 +257,7 @@ class RequestHandler {
         answer_.warnings = texts(project_.segmentation().warnings);
         answer_.done = "The search ended: " + end.sentence + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished()) refuse("The stop rules do not hold.");
-        if (end.is_out_of_time()) answer_.notes.emplace_back("All cuts are kept; go on by --auto.");
+        if (end.is_out_of_time()) answer_.notes.push_back(go_on_by_search("All cuts are kept"));
     }
 
     OpenProject& project_;

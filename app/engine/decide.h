@@ -14,6 +14,7 @@
 #include "app/engine/discard_request.h"
 #include "app/engine/open_project.h"
 #include "app/engine/outline.h"
+#include "app/engine/setup_project.h"
 #include "app/store/project_context.h"
 
 namespace qchopper {
@@ -40,6 +41,7 @@ struct ProjectRequest {
     bool reset = false;
     std::optional<SearchRequest> search;
     std::optional<std::filesystem::path> plan;  // to write
+    bool preview_setups = false;                // of a preview: how its pieces would be milled
     // Of any request.
     std::optional<GivenWeights> weights;        // a decision that is made first
     std::optional<GivenWeights> tried_weights;  // in place of those in force, of a proposal or preview; not kept
@@ -65,12 +67,13 @@ struct Preview {
     Ranked plane;
     Outline outline;
     std::vector<SolidEvaluation> solids;
-    bool sections_cross = false;  // the piece runs through itself in this plane
+    bool sections_cross = false;        // the piece runs through itself in this plane
+    std::optional<PlaneSetups> setups;  // with ProjectRequest::preview_setups
 };
 
 struct SegmentAnswer {
-    std::string done;                   // the decision as a sentence; empty: none was made
-    std::vector<std::string> notes;     // whole lines
+    Sentence done;                      // the decision as a sentence; empty: none was made
+    std::vector<Sentence> notes;        // whole lines
     std::vector<std::string> warnings;  // whole lines; the project keeps them too
     bool is_demand_met = true;          // false: the last note states why
     std::optional<Proposal> proposal;
@@ -89,8 +92,8 @@ struct SegmentAnswer {
 // Does what is asked. Tried weights change nothing: proposal and preview are those that the same request makes after
 // these weights were decided (tests/app/engine/open_project_test.cpp). Precondition: the caller holds the lock of the
 // project. Throws InputError: (use) for what this project does not have: a piece of that name, a place in the ranking,
-// a stop rule, or terms for tried weights; (config) for a wrong cell file, before anything is decided; (create) for a
-// plan in place of another file.
+// a stop rule, terms for tried weights, or a cell for the setups of a preview; (config) for a wrong cell file, before
+// anything is decided; (create) for a plan in place of another file.
 SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const ProjectContext& context);
 
 }  // namespace qchopper

@@ -28,13 +28,15 @@ constexpr double gap_in_row = 20;  // mm
 
 void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
-        throw InputError(InputFault::use, "--simplify and --max-faces exclude each other", "pass one of them");
+        throw InputError(InputFault::use, "a deviation to simplify by and a number of faces exclude each other",
+                         "give one of them");
     }
     if (a.max_distance_mm && !a.max_faces) {
-        throw InputError(InputFault::use, "--max-distance limits what --max-faces does", "pass --max-faces N too");
+        throw InputError(InputFault::use, "the largest distance limits what a number of faces does, and none is given",
+                         Sentence::with_key("max_faces_too", {}, "give the number of faces too"));
     }
     if (a.holes && (a.simplify_mm || a.max_faces)) {
-        throw InputError(InputFault::use, "--holes excludes --simplify and --max-faces", "export twice");
+        throw InputError(InputFault::use, "holes cannot be made in simplified pieces", "export twice");
     }
 }
 
@@ -54,8 +56,9 @@ fs::path output_of(const ExportRequest& a, const fs::path& project) {
         throw InputError(InputFault::use,
                          is_one_file(a) ? out.string() + " does not end in ." + a.format
                                         : out.string() + " is one file, and of " + a.format + " every piece has one",
-                         is_one_file(a) ? "name a ." + a.format + " file, or a folder that is there"
-                                        : "name a folder to make, or one piece by --piece");
+                         is_one_file(a)
+                             ? Sentence("name a ." + a.format + " file, or a folder that is there")
+                             : Sentence::with_key("folder_or_piece", {}, "name a folder to make, or one piece"));
     }
     return out;
 }
@@ -169,9 +172,10 @@ void check_shape(const ExportedPiece& row, double piece_diagonal, const ExportRe
     }
     if (faults.empty()) return;
     const double usual = std::min(limit, max_distance_share * piece_diagonal);
-    throw InputError(
-        InputFault::use, "--max-faces " + std::to_string(*request.max_faces) + " " + faults,
-        "allow more faces; or pass --simplify " + significant(usual, 2) + " for as few as that deviation allows");
+    throw InputError(InputFault::use, "simplifying to " + std::to_string(*request.max_faces) + " faces " + faults,
+                     Sentence::with_key("simplify_by_deviation", {significant(usual, 2)},
+                                        "allow more faces; or simplify by a deviation of " + significant(usual, 2) +
+                                            " mm to as few as that allows"));
 }
 
 // Pieces on several threads.
@@ -243,9 +247,9 @@ ExportedProject export_pieces(OpenProject& project, const ExportRequest& request
     check_output(exported.out);
     const bool in_setup = request.pose == "setup";
     if (in_setup && project.setups() == nullptr) {
-        throw InputError(
-            InputFault::use, project.folder().string() + " has no cell, so its pieces have no setup pose",
-            "name one by: qchopper segment " + shell_word(project.folder()) + " --cell FILE; or leave --pose out");
+        throw InputError(InputFault::use, project.folder().string() + " has no cell, so its pieces have no setup pose",
+                         Sentence::with_key("cell_for_pose", {project.folder().string()},
+                                            "give the project a cell, or export in the pose of the scan"));
     }
     exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr, context);
     add_joints(project, request, exported.pieces, context);

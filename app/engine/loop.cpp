@@ -96,10 +96,10 @@ bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepar
     return is_any;
 }
 
-std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, std::string go_on,
-                                                                  bool of_beam, const ProjectContext& context) {
+std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, GoOn go_on, bool of_beam,
+                                                                  const ProjectContext& context) {
     const auto say_kept = [&project, &context, go_on = std::move(go_on), of_beam](std::size_t cuts) {
-        context.saved(kept_cuts(cuts, project.folder(), of_beam) + go_on);
+        context.saved(go_on(kept_cuts(cuts, project.folder(), of_beam)));
     };
     say_kept(project.project().cuts.size());
     return [&project, &context, say_kept, of_beam, told = project.project().cuts.size()](const Segmentation& saved,

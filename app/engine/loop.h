@@ -60,10 +60,11 @@ LoopResult run_loop(OpenProject& project, const LoopOptions& options, const Loop
 // back. Whether a piece was decided about; its job is to be written again. Nothing of a piece that has one orientation.
 bool take_fewer_orientations(OpenProject& project, const PreparedProject& prepared, const Context& context);
 
-// For LoopObserver::on_decision: says what is kept of the cuts and, followed by `go_on`, how to go on with them, for
+using GoOn = std::function<Sentence(const std::string& kept)>;
+// For LoopObserver::on_decision: says what is kept of the cuts and, by `go_on`, how to go on with them, for
 // the message of an error that follows; and gives a message per new cut. `of_beam`: the text says that these are the
 // best cuts so far, which may change. Says what is kept of the present cuts at once.
-std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, std::string go_on,
-                                                                  bool of_beam, const ProjectContext& context);
+std::function<void(const Segmentation&, LoopStep)> told_decisions(const OpenProject& project, GoOn go_on, bool of_beam,
+                                                                  const ProjectContext& context);
 
 }  // namespace qchopper

@@ -74,10 +74,9 @@ void follow_cell(OpenProject& project, const ProjectContext& context) {
     const double kept = after.objectives.tilt_deg;
     project.set_settings(after);
     if (kept == tilt) return;
-    context.warn({"the tool of this cell tilts by " + significant(tilt, 4) + " degrees, but planes are ranked for " +
-                  significant(kept, 4) +
-                  " degrees, as when the first cut was decided; stop rules and setups take the " +
-                  "cell's. To rank for the cell's tilt, prepare the scan again with this cell"});
+    context.warn("the tool of this cell tilts by " + significant(tilt, 4) + " degrees, but planes are ranked for " +
+                 significant(kept, 4) + " degrees, as when the first cut was decided; stop rules and setups take the " +
+                 "cell's. To rank for the cell's tilt, prepare the scan again with this cell");
 }
 
 // --finest-tool and --fine none name the tools that may be used.
@@ -86,7 +85,7 @@ void take_finest_tool(ProjectChoices& choices, const Cell& cell) {
     if (!choices.tools.empty() || (choices.finest_tool_mm <= 0 && has_fine)) return;
     if (!cell.machine) {
         throw InputError(InputFault::use, "the cell file describes no machine, and has one tool",
-                         "leave --finest-tool and --fine out");
+                         Sentence::with_key("leave_fine_tools", {}, "leave out which fine tools may be used"));
     }
     const std::vector<CuttingTool>& tools = cell.machine->tools;
     double least = choices.finest_tool_mm;
@@ -94,7 +93,7 @@ void take_finest_tool(ProjectChoices& choices, const Cell& cell) {
     if (finishing_tools(tools, least, std::numeric_limits<double>::infinity()).empty()) {
         throw InputError(InputFault::use,
                          "no ball-ended tool of the cell has a diameter of " + significant(least, 4) + " mm or more",
-                         "give a smaller diameter to --finest-tool");
+                         Sentence::with_key("smaller_finest_tool", {}, "give a smaller diameter"));
     }
     for (const CuttingTool& tool : tools) {
         if (tool.shape != ToolShape::ball || tool.diameter >= least) choices.tools.push_back(tool.number);

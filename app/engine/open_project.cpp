@@ -4,6 +4,7 @@
 #include "app/engine/open_project.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/jobs/ordered_job.h"
 #include "app/jobs/piece_program.h"
@@ -34,6 +35,13 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
     const std::optional<Nudged> nudged = nudge(piece, wanted.normal, std::span(&wanted.offset, 1)).front();
     if (!nudged) return std::nullopt;
     return Candidate{{wanted.normal, nudged->offset}, wanted.offset, own_index, own_index};
+}
+
+// What is known of pieces that are no more: a project that stays open would grow by them with every decision.
+void forget_others(const Segmentation& now, EvaluationCache& cache, std::optional<Setups>& setups) {
+    const std::array<const Segmentation*, 1> held{&now};
+    cache.keep_only(held);
+    if (setups) setups->keep_only(now.pieces);
 }
 
 }  // namespace
@@ -117,7 +125,7 @@ Setups* OpenProject::setups() {
 void OpenProject::check_cell() {
     if (setups() != nullptr) return;
     throw InputError(InputFault::use, folder_.string() + " has no cell yet",
-                     "pass --cell FILE, for example cells/foam-1.toml");
+                     Sentence::with_key("give_cell", {}, "give it one"));
 }
 
 PieceChecks OpenProject::checks() {
@@ -213,6 +221,7 @@ bool OpenProject::decide_cut(Cut cut) {
     context_.progress("cuts made", after.cuts.size(), 0);
     if (!apply(after, std::move(cut), project_.settings.objectives.fragment_volume_mm3)) return false;
     adopt(after);
+    forget_others(after, cache(), setups_);
     return true;
 }
 
@@ -335,6 +344,7 @@ void OpenProject::commit_first(std::size_t committed) {
         project_.review.reset();
         segmentation_.reset();
         record(project_, segmentation());
+        forget_others(*segmentation_, cache(), setups_);
     }
     save();
 }

@@ -63,20 +63,6 @@ std::vector<Ranked> planes_to_try(const Segmentation& segmentation, std::size_t 
     return planes;
 }
 
-// The pieces that a cut along the plane makes of the piece; none if it does not part it.
-std::vector<Piece> pieces_made(const Segmentation& segmentation, std::size_t piece, const Ranked& plane,
-                               double fragment_volume_mm3) {
-    Segmentation alone;
-    alone.pieces = {segmentation.pieces[piece]};
-    alone.names_given = segmentation.names_given;
-    Cut cut;
-    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
-    cut.piece = alone.pieces.front().name;
-    cut.chosen = plane;
-    if (!apply(alone, std::move(cut), fragment_volume_mm3)) return {};
-    return std::move(alone.pieces);
-}
-
 TriedPlane judged(const Ranked& plane, const std::vector<Piece>& pieces, double limit, Setups& setups) {
     TriedPlane tried{plane};
     for (const Piece& part : pieces) {
@@ -90,6 +76,19 @@ TriedPlane judged(const Ranked& plane, const std::vector<Piece>& pieces, double 
 }
 
 }  // namespace
+
+std::vector<Piece> pieces_made(const Segmentation& segmentation, std::size_t piece, const Ranked& plane,
+                               double fragment_volume_mm3) {
+    Segmentation alone;
+    alone.pieces = {segmentation.pieces[piece]};
+    alone.names_given = segmentation.names_given;
+    Cut cut;
+    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
+    cut.piece = alone.pieces.front().name;
+    cut.chosen = plane;
+    if (!apply(alone, std::move(cut), fragment_volume_mm3)) return {};
+    return std::move(alone.pieces);
+}
 
 std::vector<Ranked> planes_by_setups(const Segmentation& segmentation, std::size_t piece, std::vector<Ranked> ranked,
                                      const SearchSettings& settings, Setups& setups, EvaluationCache& cache,

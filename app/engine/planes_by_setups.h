@@ -27,4 +27,9 @@ std::vector<Ranked> planes_by_setups(const Segmentation& segmentation, std::size
                                      const SearchSettings& settings, Setups& setups, EvaluationCache& cache,
                                      const Context& context);
 
+// The pieces that a cut of this piece along the plane would make, made on a copy, with the names that they would get;
+// none if it does not part the piece.
+std::vector<Piece> pieces_made(const Segmentation& segmentation, std::size_t piece, const Ranked& plane,
+                               double fragment_volume_mm3);
+
 }  // namespace qchopper

@@ -14,7 +14,7 @@ void discard(OpenProject& project, const DiscardRequest& request, const ProjectC
     const std::vector<std::string> names = pieces_meant(request, project.segmentation());
     if (names.empty()) return context.message(none_is_below(request));
     if (!project.decide_discard(names)) {
-        throw InputError(InputFault::use, "every piece is meant by --discard", "leave one, or prepare another scan");
+        throw InputError(InputFault::use, "every piece is meant to be discarded", "leave one, or prepare another scan");
     }
     for (const std::string& line : discarded_lines(project.project())) context.message(line);
 }
@@ -22,8 +22,12 @@ void discard(OpenProject& project, const DiscardRequest& request, const ProjectC
 PreparedProject finish(OpenProject& project, const PrepareOptions& options, const ProjectContext& context) {
     const bool is_empty = project.segmentation().pieces.empty();
     LoopObserver observer;
-    observer.on_decision =
-        told_decisions(project, "; go on with: qchopper prepare " + shell_word(project.folder()) + ".", false, context);
+    observer.on_decision = told_decisions(
+        project,
+        [folder = project.folder().string()](const std::string& kept) {
+            return Sentence::with_key("go_on_with_prepare", {kept, folder}, kept + "; it can go on from there.");
+        },
+        false, context);
     if (options.has_programs) project.set_has_programs(*options.has_programs);
     if (is_empty) {
         throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
@@ -33,9 +37,9 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
     observer.on_cut = [&, was_done = project.project().stage == Stage::done](const std::optional<SearchEnd>& end) {
         if (end) context.warn(texts(project.segmentation().warnings));
         if (end && end->is_out_of_time()) {
-            context.warn({early_end(end->sentence)});
+            context.warn(early_end(end->sentence));
         } else if (!was_done && !project.project().do_rules_hold()) {
-            context.warn({early_end(project.project().ended_because)});
+            context.warn(early_end(project.project().ended_because));
         }
     };
     LoopOptions loop;
@@ -44,8 +48,8 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
     if (options.has_items) loop.last = LoopStep::setups;
     PreparedProject prepared = *run_loop(project, loop, observer, context).prepared;
     if (options.has_items && project.project().stage == Stage::cutting) {
-        context.warn({"no items are written before the cutting has ended; go on with: qchopper prepare " +
-                      shell_word(project.folder()) + " --items"});
+        context.warn(Sentence::with_key("no_items_yet", {project.folder().string()},
+                                        "no items are written before the cutting has ended"));
     } else if (options.has_items) {
         prepared.items = project.write_items(prepared, options.program_version, context);
     }

@@ -57,7 +57,21 @@ const std::array<Preset, 4> presets{{
     {"skull", {5, 1, 200, 1}, false, workable_faces, std::nullopt},
 }};
 
+constexpr PresetRow rows[] = {
+    {"carve",
+     "what a tilting tool reaches, until at most 2 % of any piece is out of reach and every piece fits the cell"},
+    {"thesis", "the objectives of Nicholson 2016, no stop rule"},
+    {"bunny", "the bunny of Nicholson 2016"},
+    {"femur", "the femur of Nicholson 2016"},
+    {"vertebrae", "the vertebrae of Nicholson 2016"},
+    {"skull", "the skull of Nicholson 2016"},
+    {"chopper", "the objectives of Luo et al. 2012, until every piece fits the print volume"}};
+
 }  // namespace
+
+std::span<const PresetRow> preset_rows() {
+    return rows;
+}
 
 std::optional<SearchSettings> preset(std::string_view name) {
     if (name == "carve") return carve();

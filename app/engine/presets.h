@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "segment/search/settings.h"
@@ -16,6 +17,13 @@ constexpr const char* default_preset = "carve";
 // "carve", "thesis", "bunny", "femur", "vertebrae", "skull" or "chopper"; nothing for any other name. "thesis" is
 // SearchSettings{}.
 std::optional<SearchSettings> preset(std::string_view name);
+
+struct PresetRow {
+    const char* name;
+    const char* sentence;  // what it is for
+};
+// In the order in which an operator would try them.
+std::span<const PresetRow> preset_rows();
 
 // Whether the stop rules of a project are still those that the preset carve brings. How rules are combined, the safety
 // stop and whether too narrow surface counts are no rules.

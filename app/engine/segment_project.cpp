@@ -77,7 +77,7 @@ SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& open, const ProjectCon
     const Project& p = open.project();
     const PlanReplay replay = replay_plan(plan, p.scan, segmentation, p.settings, open.cache(), keep, context);
     SegmentAnswer answer;
-    answer.notes = replay.notes;
+    answer.notes.assign(replay.notes.begin(), replay.notes.end());
     const std::string until = std::to_string(segmentation.cuts.size()) + " of " + std::to_string(plan.cuts.size());
     const std::string left_out =
         std::to_string(segmentation.discarded.size()) + " of " + std::to_string(plan.discards.size());
@@ -105,9 +105,13 @@ SegmentAnswer segment_scan(const ProjectChoices& choices, ProjectRequest request
     record_uncut(draft, context);
     LockedProject open = make_project(std::move(draft), context);
     request.weights.reset();  // the project is made with them
-    if (!plan) return with_state(decide(open.project, request, context), open.project, context);
+    if (!plan) return segment_open_project(open.project, request, context);
     if (request.write_pieces) open.project.keep_pieces_written();
     return with_state(make_cuts_of(*plan, open.project, context), open.project, context);
+}
+
+SegmentAnswer segment_open_project(OpenProject& open, const ProjectRequest& request, const ProjectContext& context) {
+    return with_state(decide(open, request, context), open, context);
 }
 
 SegmentAnswer segment_project(const std::filesystem::path& folder,
@@ -115,7 +119,7 @@ SegmentAnswer segment_project(const std::filesystem::path& folder,
                               const ProjectContext& context) {
     context.saved("The project is unchanged.");
     LockedProject open(folder, cell_file, context);
-    return with_state(decide(open.project, request, context), open.project, context);
+    return segment_open_project(open.project, request, context);
 }
 
 }  // namespace qchopper

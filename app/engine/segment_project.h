@@ -15,6 +15,9 @@ namespace qchopper {
 // fit the scan (replay_plan.h, misfit), no project is made. Throws what draft_project, make_project and decide throw.
 SegmentAnswer segment_scan(const ProjectChoices& choices, ProjectRequest request, const ProjectContext& context);
 
+// decide(), with the state of the project in the answer. Precondition and errors are those of decide().
+SegmentAnswer segment_open_project(OpenProject& open, const ProjectRequest& request, const ProjectContext& context);
+
 // Throws what LockedProject and decide throw.
 SegmentAnswer segment_project(const std::filesystem::path& folder,
                               const std::optional<std::filesystem::path>& cell_file, const ProjectRequest& request,

@@ -37,6 +37,10 @@ fs::path results_of(const fs::path& item) {
     return fs::absolute(item).parent_path().parent_path() / "results";
 }
 
+Sentence write_items(const fs::path& project) {
+    return Sentence::with_key("write_items", {project.string()}, "write the items of the project");
+}
+
 // By name.
 std::vector<fs::path> items_in(const fs::path& project) {
     std::vector<fs::path> items;
@@ -45,8 +49,7 @@ std::vector<fs::path> items_in(const fs::path& project) {
         if (entry.path().extension() == item_ending) items.push_back(entry.path());
     }
     if (items.empty()) {
-        throw InputError(InputFault::missing, project.string() + " has no items to work on",
-                         "qchopper prepare " + shell_word(project) + " --items");
+        throw InputError(InputFault::missing, project.string() + " has no items to work on", write_items(project));
     }
     std::sort(items.begin(), items.end());
     return items;
@@ -83,7 +86,7 @@ UnmadePiece unmade_piece(const WorkItem& item, const std::vector<SeenAttempt>& a
 // The items of all pieces of a project, in their order.
 std::vector<WorkItem> items_of_project(OpenProject& project, const std::string& program_version,
                                        const ProjectContext& context) {
-    const std::string write_again = "qchopper prepare " + shell_word(project.folder()) + " --items";
+    const Sentence write_again = write_items(project.folder());
     const std::vector<fs::path> files = items_in(project.folder());
     const Bytes cell = read_file(project.folder() / "cell.toml", settings_limit);
     std::vector<WorkItem> items;
@@ -135,7 +138,7 @@ void take_results(const fs::path& folder, const std::vector<WorkItem>& items, co
     if (libraries.size() < 2) return;
     std::string all;
     for (const std::string& own : libraries) all += (all.empty() ? "" : "; ") + printable(own);
-    context.warn({"machines have other libraries, by which pictures in jobs may have other bytes: " + all});
+    context.warn("machines have other libraries, by which pictures in jobs may have other bytes: " + all);
 }
 
 // The project that all items are of; empty: of several, or of none.

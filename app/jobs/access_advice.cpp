@@ -35,7 +35,7 @@ std::string millimetres(double mm) {
     return fixed(mm, 0) + " mm";
 }
 
-std::string holder_remedy(const AdviceInput& input, const Cell& cell) {
+Sentence holder_remedy(const AdviceInput& input, const Cell& cell) {
     double depth = 0;
     for (const ToolOrientation& d : input.access.orientations) depth = std::max(depth, d.depth_mm);
     const std::string deep = ", while surface in sight lies up to " + millimetres(depth) + " deep in the block";
@@ -45,37 +45,42 @@ std::string holder_remedy(const AdviceInput& input, const Cell& cell) {
            " to its holder" + deep;
 }
 
-std::string directions_remedy(const AdviceInput& input, const Cell&) {
+Sentence directions_remedy(const AdviceInput& input, const Cell&) {
     const std::size_t most = input.max_directions;
     if (input.is_limited) {
-        return "finishing by hand: it is limited to " + counted(most, "tool orientation") + ", see " +
-               input.setup_command;
+        const std::string limit = counted(most, "tool orientation");
+        return Sentence::with_key("see_setup_limit", {limit, input.folder, input.piece},
+                                  "finishing by hand: it is limited to " + limit + " by its setup");
     }
     // Where fewer were chosen than allowed, a further one gains too little to be worth a program of its own.
     if (input.access.orientations.size() < most)
         return "finishing by hand: no further orientation gains half a percent";
-    return "more tool orientations: " + input.setup_command + " --orientations " + std::to_string(most + 4);
+    const std::string more = std::to_string(most + 4);
+    return Sentence::with_key("more_orientations", {more, input.folder, input.piece},
+                              "more tool orientations: " + more);
 }
 
-std::string tilt_remedy(const AdviceInput& input, const Cell&) {
-    std::string cut = "another cut: " + input.segment_command;
+Sentence tilt_remedy(const AdviceInput& input, const Cell&) {
+    Sentence cut = Sentence::with_key("another_cut", {input.folder, input.piece}, "another cut");
     if (input.tilt_deg >= largest_tilt_deg) return cut;
-    return "a larger tilt than " + fixed(input.tilt_deg, 0) + " degrees, or " + cut;
+    const std::string tilt = "a larger tilt than " + fixed(input.tilt_deg, 0) + " degrees";
+    std::string text = tilt + ", or " + cut.text;
+    return Sentence::with_key("larger_tilt", {tilt, std::move(cut)}, std::move(text));
 }
 
-std::string narrow_remedy(const AdviceInput&, const Cell& cell) {
+Sentence narrow_remedy(const AdviceInput&, const Cell& cell) {
     return "a smaller tool than that of " + millimetres(2 * limiting_tools(cell).smallest_radius);
 }
 
-std::string inside_remedy(const AdviceInput&, const Cell&) {
-    return "a mask, if it may stay: --ignore-inside, or --ignore-surface FILE";
+Sentence inside_remedy(const AdviceInput&, const Cell&) {
+    return Sentence::with_key("mask", {}, "a mask, if it may stay");
 }
 
 struct AdviceKind {
     AccessFault fault;
     const char* word;
     const char* what;
-    std::string (*remedies)(const AdviceInput&, const Cell&);
+    Sentence (*remedies)(const AdviceInput&, const Cell&);
 };
 
 constexpr std::array<AdviceKind, 5> kinds{{

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sentence.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/surface_access.h"
 #include "segment/cut/piece.h"
@@ -26,9 +27,9 @@ const char* to_word(AccessFault fault);  // "holder", "few_orientations", "tilt"
 
 struct AccessAdvice {
     AccessFault fault = AccessFault::tilt;
-    double share = 0;      // of the surface
-    std::string what;      // "because of the holder"
-    std::string remedies;  // "a longer tool than ball-20, which reaches 150 mm, or a slimmer holder"
+    double share = 0;   // of the surface
+    std::string what;   // "because of the holder"
+    Sentence remedies;  // "a longer tool than ball-20, which reaches 150 mm, or a slimmer holder"
 };
 
 struct AdviceInput {
@@ -37,8 +38,8 @@ struct AdviceInput {
     double tilt_deg = 60;            // the largest of the cell
     std::size_t max_directions = 8;  // that were allowed
     bool is_limited = false;  // by a decision on this piece: the operator's, or because the arm does not follow more
-    std::string segment_command;  // "qchopper segment FOLDER --piece B --step"
-    std::string setup_command;    // "qchopper setup FOLDER --piece B"
+    std::string folder;       // of the project
+    std::string piece;
 };
 
 // One for each kind of which there is at least 0.1 %, the largest share first. The shares of kinds but the holder are

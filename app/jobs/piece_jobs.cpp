@@ -66,9 +66,8 @@ std::vector<AccessAdvice> advice_for(const fs::path& folder, const Project& proj
     const SetupOrder order = committed_setup_order(project.history, piece.name);
     input.max_directions = order.max_directions.value_or(SetupOptions{}.max_directions);
     input.is_limited = order.max_directions.has_value();
-    const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
-    input.segment_command = "qchopper segment " + of_piece + " --step";
-    input.setup_command = "qchopper setup " + of_piece;
+    input.folder = folder.string();
+    input.piece = piece.name;
     return access_advice(input, cell);
 }
 

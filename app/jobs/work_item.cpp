@@ -30,7 +30,7 @@ constexpr const char* mark = "qchopper item 2";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
     throw InputError(InputFault::mesh, file.string() + " " + what,
-                     "write the items again: qchopper prepare NAME.qch --items");
+                     Sentence::with_key("write_items_again", {}, "write the items again"));
 }
 
 // A manifest says of every hole who drills it, and of an item nobody has said so yet: this stands in for it.

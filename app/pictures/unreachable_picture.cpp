@@ -24,10 +24,8 @@ constexpr TwoSidesLayout layout{.view_width = 1000,
                                 .after_square = 10,
                                 .after_name = 30};
 
-constexpr std::uint8_t base_index = 6;
-
 // In the order of SurfaceState; then the base.
-std::array<LegendEntry, base_index + 1> colours(bool narrow_counts) {
+std::array<LegendEntry, base_state + 1> colours(bool narrow_counts) {
     const auto of = [&](SurfaceState state, const char* name) {
         return LegendEntry{surface_colour(state, narrow_counts), name};
     };
@@ -40,19 +38,9 @@ std::array<LegendEntry, base_index + 1> colours(bool narrow_counts) {
              {base_colour, "base"}}};
 }
 
-std::vector<std::uint8_t> colours_of(const Piece& piece, const MilledPiece& milled) {
-    assert(milled.states.empty() || milled.states.size() == piece.mesh->triangles.size());
-    std::vector<std::uint8_t> result(piece.mesh->triangles.size(), 0);
-    for (std::size_t t = 0; t < result.size(); ++t) {
-        if (!milled.states.empty()) result[t] = static_cast<std::uint8_t>(milled.states[t]);
-        if (milled.base_cut && cap_of(*piece.mesh, t) == *milled.base_cut) result[t] = base_index;
-    }
-    return result;
-}
-
 // Of the colours that occur, and always of the three kinds of surface that cuts and tools can open.
 std::vector<LegendEntry> legend_of(std::span<const LegendEntry> entries,
-                                   const std::array<bool, base_index + 1>& occurs) {
+                                   const std::array<bool, base_state + 1>& occurs) {
     std::vector<LegendEntry> legend;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto state = static_cast<SurfaceState>(i);
@@ -65,6 +53,16 @@ std::vector<LegendEntry> legend_of(std::span<const LegendEntry> entries,
 
 }  // namespace
 
+std::vector<std::uint8_t> surface_states(const TriangleMesh& mesh, const MilledPiece& milled) {
+    assert(milled.states.empty() || milled.states.size() == mesh.triangles.size());
+    std::vector<std::uint8_t> result(mesh.triangles.size(), 0);
+    for (std::size_t t = 0; t < result.size(); ++t) {
+        if (!milled.states.empty()) result[t] = static_cast<std::uint8_t>(milled.states[t]);
+        if (milled.base_cut && cap_of(mesh, t) == *milled.base_cut) result[t] = base_state;
+    }
+    return result;
+}
+
 Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const MilledPiece> milled,
                        bool narrow_counts, const Context& context) {
     assert(!pieces.empty() && shifts.size() == pieces.size() && milled.size() == pieces.size());
@@ -74,7 +72,7 @@ Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shif
     std::vector<std::vector<std::uint8_t>> indices;
     std::array<bool, entries.size()> occurs{};
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-        indices.push_back(colours_of(pieces[p], milled[p]));
+        indices.push_back(surface_states(*pieces[p].mesh, milled[p]));
         for (const std::uint8_t i : indices.back()) occurs[i] = true;
     }
     std::vector<ColouredMesh> meshes = coloured(pieces, shifts);

@@ -23,6 +23,10 @@ struct MilledPiece {
     std::optional<std::int32_t> base_cut;  // whose cap lies on the table
 };
 
+// Per triangle the number of its SurfaceState, or base_state where it is of the base.
+constexpr std::uint8_t base_state = static_cast<std::uint8_t>(SurfaceState::ignored) + 1;
+std::vector<std::uint8_t> surface_states(const TriangleMesh& mesh, const MilledPiece& milled);
+
 // PNG. `shifts` (mm) moves the pieces apart; `narrow_counts`: what is too narrow for the smallest tool counts as out of
 // reach. Preconditions: one entry per piece in each; there is a piece. Throws
 // Cancelled.

@@ -13,6 +13,20 @@
 #include "segment/import/import_scan.h"
 
 namespace qchopper {
+
+template <class V, Of<SelfIntersected> T>
+void fields(V& v, T& found) {
+    v("pairs", found.pairs);
+    v("complete", found.is_complete);
+    v("places", found.places);
+}
+
+template <class V, Of<FaultPlaces> T>
+void fields(V& v, T& places) {
+    v("kind", places.kind);
+    v("points", places.points);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -78,11 +92,6 @@ void add_self_intersections(std::vector<std::string>& text, const Inspection& i)
 
 Json hole_document(const BorderLoop& hole) {
     return {{"edges", hole.edges}, {"length", hole.length}, {"centre", json_of(hole.centre)}};
-}
-
-Json self_intersections_document(const std::optional<SelfIntersected>& found) {
-    if (!found) return {};
-    return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", json_of(found->places)}};
 }
 
 }  // namespace
@@ -152,7 +161,8 @@ Document document(const InspectedFile& file) {
                     {"faces_without_area", i.degenerate},
                     {"faces_without_corners", i.faces_without_area},
                     {"unreferenced_vertices", i.unreferenced},
-                    {"self_intersections", self_intersections_document(i.self_intersected)},
+                    {"self_intersections", json_of(i.self_intersected)},
+                    {"places", json_of(i.places)},
                     {"verdict", name_of_value(judgement.verdict)},
                     {"reasons", judgement.reasons}};
     return compose(json);

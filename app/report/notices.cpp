@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "app/report/command_line_text.h"
 #include "app/report/report_json.h"
 #include "base/text.h"
 #include "segment/import/inspect.h"
@@ -33,22 +34,39 @@ void fields(V& v, T& guide) {
     v("held", guide.held);
 }
 
-Document error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
-                        int exit_code) {
-    return compose({{"schema", "qchopper-error-1"},
-                    {"error", error},
-                    {"unchanged", unchanged},
-                    {"to_do", to_do},
-                    {"exit_code", exit_code}});
+Document error_document(const std::string& error, const std::string& unchanged, const Sentence& to_do, int exit_code) {
+    nlohmann::ordered_json json{{"schema", "qchopper-error-1"}, {"error", error}, {"unchanged", unchanged}};
+    add_to_do(json, to_do, command_line_text(to_do));
+    json["exit_code"] = exit_code;
+    return compose(std::move(json));
 }
 
 Document document(const ProgressState& state) {
     return compose_line(json_of(state));
 }
 
+namespace {
+constexpr std::array notice_keys{"message", "warning", "error"};  // in the order of NoticeKind
+}  // namespace
+
 Document notice_document(NoticeKind kind, const std::string& line) {
-    constexpr std::array names{"message", "warning", "error"};
-    return compose_line({{names[static_cast<std::size_t>(kind)], line}});
+    return compose_line({{notice_keys[static_cast<std::size_t>(kind)], line}});
+}
+
+std::optional<ProgressState> read_progress(const std::string& line) {
+    try {
+        ProgressState state;
+        json_values::from_document(line, state, false);
+        return state;
+    } catch (const std::runtime_error&) {
+        return {};
+    }
+}
+
+std::optional<std::string> read_notice(const std::string& line) {
+    const auto json = nlohmann::ordered_json::parse(line, nullptr, false);
+    if (!json.is_object() || json.size() != 1 || !json.begin()->is_string()) return {};
+    return json.begin()->get<std::string>();
 }
 
 std::vector<std::string> lines(const WrittenSample& sample) {
@@ -81,8 +99,37 @@ Document document(const WrittenGuide& guide) {
     return compose(json_of(guide));
 }
 
+namespace {
+
+// A text of a document as it is printed; empty where there is none.
+std::string text_in(const std::string& document, const char* key) {
+    const auto json = nlohmann::ordered_json::parse(document, nullptr, false);
+    return json.is_object() ? json.value(key, std::string()) : std::string();
+}
+
+constexpr const char* address_key = "listening";
+constexpr const char* mesh_key = "mesh";
+
+}  // namespace
+
 Document listening_document(const std::string& address) {
-    return compose_line({{"schema", "qchopper-cell-sim-1"}, {"listening", address}});
+    return compose_line({{"schema", "qchopper-cell-sim-1"}, {address_key, address}});
+}
+
+std::string listening_address(const std::string& document) {
+    return text_in(document, address_key);
+}
+
+Document mesh_document(const std::string& id, double deviation) {
+    return compose_line({{mesh_key, id}, {"deviation", deviation}});
+}
+
+Document painted_document(std::size_t points) {
+    return compose_line({{"points_asked", points}});
+}
+
+std::string read_mesh_id(const std::string& document) {
+    return text_in(document, mesh_key);
 }
 
 std::vector<std::string> fault_lines() {

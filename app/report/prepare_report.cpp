@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/report/cell/machine_reachability_report.h"
 #include "app/report/columns.h"
+#include "app/report/command_line_text.h"
 #include "app/report/joint_report.h"
-#include "app/report/machine_reachability_report.h"
 #include "app/report/program_report.h"
 #include "app/report/report_json.h"
 #include "app/report/segment_report.h"
@@ -41,7 +42,7 @@ Json cut_json(const Cut& cut) {
 }
 
 Json advice_json(const AccessAdvice& a) {
-    return {{"kind", to_word(a.fault)}, {"share", a.share}, {"remedies", a.remedies}};
+    return {{"kind", to_word(a.fault)}, {"share", a.share}, {"remedies", a.remedies.text}};
 }
 
 // ": 3.01 % because of the holder (a longer tool ...), 0.53 % ...": the two largest parts.
@@ -49,7 +50,8 @@ std::string advice_words(const std::vector<AccessAdvice>& advice) {
     std::string words;
     for (std::size_t i = 0; i < std::min<std::size_t>(advice.size(), 2); ++i) {
         const AccessAdvice& a = advice[i];
-        words += (i == 0 ? ": " : ", ") + share_word(a.share) + " " + a.what + " (" + a.remedies + ")";
+        words +=
+            (i == 0 ? ": " : ", ") + share_word(a.share) + " " + a.what + " (" + command_line_text(a.remedies) + ")";
     }
     return words;
 }

@@ -4,6 +4,19 @@
 
 namespace qchopper {
 
+template <class V, Of<Sentence> T>
+void fields(V& v, T& sentence) {
+    v("text", sentence.text);
+    v("key", sentence.key);
+    v("values", sentence.values);
+}
+
+void add_to_do(nlohmann::ordered_json& document, const Sentence& to_do, const std::optional<std::string>& text) {
+    json_values::JsonWriter writer(document);
+    writer("to_do", text);
+    writer("remedy", to_do.key.empty() ? std::nullopt : std::optional(to_do));
+}
+
 void add_scan(nlohmann::ordered_json& document, const Project& project) {
     json_values::JsonWriter writer(document);
     writer.maybe("ignored", project.ignored);

@@ -2,10 +2,12 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/store/value_fields.h"
 #include "base/json_fields.h"
+#include "base/sentence.h"
 
 namespace qchopper {
 
@@ -24,6 +26,10 @@ auto list_of(const Range& values, const ToJson& to_json) {
     for (const auto& value : values) list.push_back(to_json(value));
     return list;
 }
+
+// The keys to_do, with this text, and remedy, by which a page words it itself: text, key and values of a sentence that
+// has a key, else null.
+void add_to_do(nlohmann::ordered_json& document, const Sentence& to_do, const std::optional<std::string>& text);
 
 // What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
 void add_scan(nlohmann::ordered_json& document, const Project& project);

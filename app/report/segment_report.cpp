@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/command_line_text.h"
 #include "app/report/objective_terms.h"
 #include "app/report/report_json.h"
+#include "app/report/setup_report.h"
 #include "app/store/project_lines.h"
 #include "base/printable.h"
 #include "base/text.h"
@@ -36,11 +38,6 @@ bool is_fragment(const SolidEvaluation& solid, const Project& project) {
 // For planes in which the piece runs through itself; a cut there has the same warning (cut_piece.cpp).
 std::string sections_cross(const std::string& planes) {
     return "The sections of " + planes + " cross: the piece runs through itself there, and the caps would overlap.";
-}
-
-// "Undo cut 3 on piece B"; empty if there is no such decision.
-std::string describe_step(const std::string& step, const Decision* decision) {
-    return decision != nullptr ? step + describe(*decision) : "";
 }
 
 void add(std::vector<std::string>& text, const std::vector<std::string>& more) {
@@ -133,6 +130,7 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
     }
     add(text, columns(rows));
     if (p.sections_cross) text.push_back(sections_cross("this plane"));
+    if (p.setups) add(text, lines(*p.setups));
     text.push_back("Nothing was cut.");
     return text;
 }
@@ -165,8 +163,8 @@ std::vector<std::string> committed_lines(const SegmentAnswer& answer) {
                    ". Weights: " + describe_weights(project.settings.objectives.weights) + ".");
     add(text, scan_lines(project));
     add(text, discarded_lines(project));
-    for (const auto& [option, what] : {std::pair{"--undo", describe_step("Undo ", to_undo(project.history))},
-                                       {"--redo", describe_step("Redo ", to_redo(project.history))}})
+    for (const auto& [option, what] :
+         {std::pair{"--undo", undo_text(project.history)}, {"--redo", redo_text(project.history)}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
     return text;
 }
@@ -208,14 +206,16 @@ Json preview_json(const Preview& p, const Project& project) {
                           {"volume_mm3", s.volume_mm3},
                           {"fragment", is_fragment(s, project)}});
     }
-    return {{"piece", p.piece},
-            {"plane", plane_json(p.plane, project)},
-            {"sections_cross", p.sections_cross},
-            {"loops", json_of(p.outline.loops)},
-            {"length_mm", p.outline.length_mm},
-            {"box_min_mm", json_of(p.outline.box.min)},
-            {"box_max_mm", json_of(p.outline.box.max)},
-            {"makes", solids}};
+    Json json{{"piece", p.piece},
+              {"plane", plane_json(p.plane, project)},
+              {"sections_cross", p.sections_cross},
+              {"loops", json_of(p.outline.loops)},
+              {"length_mm", p.outline.length_mm},
+              {"box_min_mm", json_of(p.outline.box.min)},
+              {"box_max_mm", json_of(p.outline.box.max)},
+              {"makes", solids}};
+    if (p.setups) json["milled_pieces"] = plane_setups_json(*p.setups);
+    return json;
 }
 
 Json cuts_json(const Project& project) {
@@ -271,11 +271,11 @@ Json discarded_json(const Project& project) {
 }
 
 std::vector<std::string> lines(const SegmentAnswer& answer) {
-    if (!answer.is_project_made) return answer.notes;
+    if (!answer.is_project_made) return command_line_text(answer.notes);
     const Project& project = answer.project;
     std::vector<std::string> text;
-    if (!answer.done.empty()) text.push_back(answer.done);
-    add(text, answer.notes);
+    if (!answer.done.empty()) text.push_back(command_line_text(answer.done));
+    add(text, command_line_text(answer.notes));
     if (answer.plan) {
         text.push_back(
             "Plan of " + std::to_string(project.cuts.size()) + " cuts" +
@@ -313,11 +313,11 @@ Document document(const SegmentAnswer& answer) {
     }
     Json json{{"schema", "qchopper-segment-3"},
               {"project", answer.folder.string()},
-              {"done", text_or_null(answer.done)},
+              {"done", text_or_null(answer.done.text)},
               {"demand_met", answer.is_demand_met},
-              {"notes", answer.notes},
-              {"undo", text_or_null(describe_step("Undo ", to_undo(project.history)))},
-              {"redo", text_or_null(describe_step("Redo ", to_redo(project.history)))},
+              {"notes", list_of(answer.notes, [](const Sentence& note) { return Json(note.text); })},
+              {"undo", text_or_null(undo_text(project.history))},
+              {"redo", text_or_null(redo_text(project.history))},
               {"ended_because", text_or_null(project.ended_because)},
               {"weights", json_of(project.settings.objectives.weights)},
               {"cuts", cuts_json(project)},

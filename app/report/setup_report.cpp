@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/report/cell/machine_reachability_report.h"
 #include "app/report/columns.h"
-#include "app/report/machine_reachability_report.h"
 #include "app/report/program_report.h"
 #include "app/report/report_json.h"
 #include "app/report/workholding_report.h"
@@ -19,6 +19,19 @@
 #include "cam/job/setup_fields.h"
 
 namespace qchopper {
+
+template <class V, Of<SurfaceAreas> T>
+void fields(V& v, T& areas) {
+    v("reached", areas.reached);
+    v("too_narrow", areas.too_narrow);
+    v("steep", areas.steep);
+    v("holder", areas.holder);
+    v("hidden", areas.hidden);
+    v("ignored", areas.ignored);
+    v("sawn", areas.sawn);
+    v("base", areas.base);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -112,6 +125,10 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     }
 }
 
+const char* side_word(bool is_above) {
+    return is_above ? "above" : "below";
+}
+
 // "; its program: 3 h 20 min, verified"; empty without one.
 std::string program_words(const PieceReport& job) {
     return job.verdicts.empty() ? std::string() : "; its program: " + program_word(job);
@@ -126,6 +143,39 @@ Json setup_json(const Setup& setup, const Cell& cell) {
                  {"undercut_by_count", setup.undercut_by_count},
                  {"tools", setup.tools.empty() ? Json() : Json(setup.tools)}});
     return json;
+}
+
+std::vector<std::string> after_piece(const std::string& piece, std::vector<std::string> row) {
+    row.insert(row.begin(), piece);
+    return row;
+}
+
+// Of several pieces: a row each, with the setup that is taken.
+std::vector<std::string> setups_table(const std::vector<PieceSetups>& pieces, const Cell& cell) {
+    std::vector<std::vector<std::string>> rows{after_piece("piece", setup_columns)};
+    for (const PieceSetups& p : pieces) {
+        rows.push_back(
+            after_piece(p.piece, row_of(p.piece_setup.setup(), cell, p.piece_setup.machine_reachability.holds())));
+    }
+    return columns(rows);
+}
+
+Json setups_json(const PieceSetups& p, const Cell& cell) {
+    Json ordered;
+    if (p.order) {
+        ordered = Json{{"base_number", json_of(p.order->base)},
+                       {"max_directions", json_of(p.order->max_directions)},
+                       {"tools", p.order->tools.empty() ? Json() : Json(p.order->tools)}};
+    }
+    return {
+        {"name", p.piece},
+        {"ordered", ordered},
+        {"setups", list_of(p.piece_setup.choice.setups, [&](const Setup& setup) { return setup_json(setup, cell); })},
+        {"work_envelope", json_of(p.piece_setup.machine_reachability)}};
+}
+
+Json json_in_cell(const Cell& cell, double max_unreachable, Json pieces) {
+    return {{"cell", cell.name}, {"max_unreachable", max_unreachable}, {"pieces", std::move(pieces)}};
 }
 
 }  // namespace
@@ -179,15 +229,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
     if (answer.pieces.size() == 1) {
         add_piece(answer.pieces.front(), answer, text);
     } else {
-        std::vector<std::vector<std::string>> rows{setup_columns};
-        rows.front().insert(rows.front().begin(), "piece");
-        for (const PieceSetups& p : answer.pieces) {
-            std::vector<std::string> row =
-                row_of(p.piece_setup.setup(), answer.cell, p.piece_setup.machine_reachability.holds());
-            row.insert(row.begin(), p.piece);
-            rows.push_back(std::move(row));
-        }
-        for (const std::string& line : columns(rows)) text.push_back(line);
+        for (const std::string& line : setups_table(answer.pieces, answer.cell)) text.push_back(line);
         text.emplace_back("Shares are of the area without base and sawn caps.");
     }
     if (answer.ignored) text.push_back(ignored_line(*answer.ignored) + "; it counts in no share.");
@@ -202,31 +244,49 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
     return text;
 }
 
-Document document(const SetupAnswer& answer) {
-    const auto setup_in_cell = [&](const Setup& setup) { return setup_json(setup, answer.cell); };
-    Json pieces = Json::array();
-    for (const PieceSetups& p : answer.pieces) {
-        Json ordered;
-        if (p.order) {
-            ordered = Json{{"base_number", json_of(p.order->base)},
-                           {"max_directions", json_of(p.order->max_directions)},
-                           {"tools", p.order->tools.empty() ? Json() : Json(p.order->tools)}};
+std::vector<std::string> lines(const PlaneSetups& plane) {
+    std::vector<PieceSetups> pieces;
+    std::vector<std::vector<std::string>> rows{after_piece(
+        "piece", {"reached", "too narrow", "steep", "holder", "hidden", "ignored", "sawn", "base", "side"})};
+    for (const PlanePiece& p : plane.pieces) {
+        pieces.push_back(p.setups);
+        const SurfaceAreas& a = p.areas;
+        std::vector<std::string> row;
+        for (const double mm2 : {a.reached, a.too_narrow, a.steep, a.holder, a.hidden, a.ignored, a.sawn, a.base}) {
+            row.push_back(fixed(mm2 / 100, 1));
         }
-        pieces.push_back({{"name", p.piece},
-                          {"ordered", ordered},
-                          {"setups", list_of(p.piece_setup.choice.setups, setup_in_cell)},
-                          {"work_envelope", json_of(p.piece_setup.machine_reachability)}});
+        row.emplace_back(side_word(p.is_above));
+        rows.push_back(after_piece(p.piece.name, std::move(row)));
     }
-    Json json{{"schema", "qchopper-setup-2"},
-              {"project", answer.folder.string()},
-              {"cell", answer.cell.name},
-              {"max_unreachable", answer.max_unreachable},
-              {"done", answer.done},
-              {"job_written", answer.is_job_written()},
-              {"pieces", pieces}};
+    std::vector<std::string> text = setups_table(pieces, plane.cell);
+    text.emplace_back(
+        "Shares are of the area without base and sawn caps. Areas in cm2, as the setup sheet colours them:");
+    for (std::string& line : columns(rows)) text.push_back(std::move(line));
+    return text;
+}
+
+nlohmann::ordered_json plane_setups_json(const PlaneSetups& plane) {
+    Json pieces = Json::array();
+    for (const PlanePiece& p : plane.pieces) {
+        pieces.push_back(setups_json(p.setups, plane.cell));
+        json_values::JsonWriter writer(pieces.back());
+        writer("side", side_word(p.is_above));
+        writer("fits", p.setups.piece_setup.fits());
+        writer("areas_mm2", p.areas);
+    }
+    return json_in_cell(plane.cell, plane.max_unreachable, std::move(pieces));
+}
+
+Document document(const SetupAnswer& answer) {
+    Json pieces = Json::array();
+    for (const PieceSetups& p : answer.pieces) pieces.push_back(setups_json(p, answer.cell));
+    Json json{{"schema", "qchopper-setup-2"}, {"project", answer.folder.string()}};
+    json.update(json_in_cell(answer.cell, answer.max_unreachable, std::move(pieces)));
+    json["done"] = answer.done;
+    json["job_written"] = answer.is_job_written();
     if (answer.is_job_written()) json["program"] = program_json(*answer.job);
     if (answer.ignored) json["ignored"] = json_of(*answer.ignored);
-    return compose(json);
+    return compose(std::move(json));
 }
 
 }  // namespace qchopper

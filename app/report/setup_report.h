@@ -32,4 +32,8 @@ std::vector<std::string> lines(const SetupAnswer& answer);
 // The document qchopper-setup-2 (tests/app/cli/setup_test.cpp).
 Document document(const SetupAnswer& answer);
 
+// Of the pieces that a plane would make: as for those of a project, and what becomes of their surface.
+std::vector<std::string> lines(const PlaneSetups& plane);
+nlohmann::ordered_json plane_setups_json(const PlaneSetups& plane);
+
 }  // namespace qchopper

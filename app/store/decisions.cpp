@@ -202,6 +202,16 @@ const Decision* to_redo(const History& history) {
     return history.committed < history.decisions.size() ? &history.decisions[history.committed] : nullptr;
 }
 
+std::string undo_text(const History& history) {
+    const Decision* const decision = to_undo(history);
+    return decision == nullptr ? "" : "Undo " + describe(*decision);
+}
+
+std::string redo_text(const History& history) {
+    const Decision* const decision = to_redo(history);
+    return decision == nullptr ? "" : "Redo " + describe(*decision);
+}
+
 void follow(History& history, const std::vector<Cut>& cuts) {
     const std::vector<Cut> before = committed_cuts(history);
     std::size_t same = 0;

@@ -110,6 +110,9 @@ void decide(History& history, Decision decision);
 // The decision that undo would take back, and the one that redo would put in force again; nullptr if there is none.
 const Decision* to_undo(const History& history);
 const Decision* to_redo(const History& history);
+// "Undo cut 3 on piece B", "Redo reset"; empty if there is nothing to undo or redo.
+std::string undo_text(const History& history);
+std::string redo_text(const History& history);
 
 // Makes `cuts` the cuts in force, after a search has gone on or changed to another branch: cuts at the end that are not
 // in `cuts` are dropped, new ones are added. Precondition: nothing but cuts was decided after the last cut that both

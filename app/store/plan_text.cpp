@@ -172,8 +172,8 @@ Plan plan_from(const TomlReader& top) {
 std::string to_text(const Plan& plan) {
     const PlanScan& s = plan.scan;
     std::ostringstream out;
-    out << first_line << ": the cuts of a segmentation, to be made again on another version of the same specimen by\n"
-        << "#   qchopper segment SCAN --units UNIT --replay THIS_FILE -o NAME.qch\n"
+    out << first_line << ": the cuts of a segmentation, to be made again on another version of the same specimen\n"
+        << "# (docs/user/plan-file.md).\n"
         << "# Lengths are millimetres in the scan's own frame: coordinates of its file times unit and scale.\n"
         << "schema = " << schema << "\n\n[scan]\nname = " << quoted(s.name) << "\nsha256 = " << quoted(s.sha256)
         << "\nunits = " << quoted(name_of(s.unit)) << "\nscale = " << in_digits(s.scale)

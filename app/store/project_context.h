@@ -11,19 +11,23 @@
 #include <vector>
 
 #include "base/context.h"
+#include "base/sentence.h"
 
 namespace qchopper {
 
 struct ProjectContext : Context {
-    std::function<void(const std::string&)> on_warning;  // one line
+    std::function<void(const Sentence&)> on_warning;  // one line
     // One sentence about what is on disk from now on, for the message of an error that follows.
-    std::function<void(const std::string&)> on_saved;
+    std::function<void(const Sentence&)> on_saved;
 
     void warn(const std::vector<std::string>& lines) const {
         if (!on_warning) return;
         for (const std::string& line : lines) on_warning(line);
     }
-    void saved(const std::string& sentence) const {
+    void warn(const Sentence& line) const {
+        if (on_warning) on_warning(line);
+    }
+    void saved(const Sentence& sentence) const {
         if (on_saved) on_saved(sentence);
     }
 };

@@ -136,6 +136,18 @@ std::string holder_of(int descriptor) {
 
 }  // namespace
 
+std::optional<std::string> writer_of(const fs::path& folder) {
+    const int file = ::open((folder / "lock").c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return {};
+    std::optional<std::string> writer;
+    if (::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        const std::string holder = holder_of(file);
+        writer = holder.empty() ? "another program" : holder.substr(2);
+    }
+    ::close(file);
+    return writer;
+}
+
 ProjectLock::ProjectLock(const fs::path& folder)
     : descriptor_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (descriptor_ < 0) {

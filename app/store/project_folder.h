@@ -20,6 +20,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/store/project.h"
 #include "base/context.h"
@@ -60,6 +61,10 @@ Project load_project(const std::filesystem::path& folder);
 // Removes what a program of this machine leaves behind if it is killed while it writes (is_leftover of
 // base/files/temporary_name.h), in all folders of the project (tests/app/engine/killed_test.cpp).
 void clear_leftovers(const std::filesystem::path& folder);
+
+// Who writes the project now: "prepare, process 4711 on workshop, since ...", or "another program"; nothing if nobody
+// does.
+std::optional<std::string> writer_of(const std::filesystem::path& folder);
 
 // Holds the lock file of a project while it lives, so that one program writes at a time. The system releases it when
 // the program ends in any way.

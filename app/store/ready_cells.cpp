@@ -2,10 +2,12 @@
 
 #include "app/store/ready_cells.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <system_error>
 
 #include "base/error.h"
+#include "cam/cell/cell.h"
 
 namespace qchopper {
 namespace {
@@ -39,6 +41,30 @@ fs::path cell_file_of(const std::string& text) {
     }
     throw InputError(InputFault::missing, "there is no cell file " + text + ", and no ready cell of that name here",
                      "name the file, as cells/kr60-ha.toml; qchopper cells list names those that are ready");
+}
+
+std::vector<ReadyCell> ready_cell_files(const fs::path& folder) {
+    std::vector<ReadyCell> cells;
+    const fs::path folders[] = {folder, folder / "cells", config_folder() / "qchopper" / "cells", ready_cells()};
+    for (const fs::path& place : folders) {
+        std::vector<fs::path> files;
+        std::error_code error;
+        for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
+            if (entry->path().extension() == ".toml") files.push_back(entry->path());
+        }
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files) {
+            const std::string name = file.stem().string();
+            const auto is_same = [&](const ReadyCell& cell) { return cell.name == name; };
+            if (std::any_of(cells.begin(), cells.end(), is_same)) continue;
+            try {
+                cells.push_back({name, read_cell(file).name, file});
+            } catch (const InputError& e) {
+                if (place != folder) cells.push_back({name, e.what(), file});
+            }
+        }
+    }
+    return cells;
 }
 
 }  // namespace qchopper

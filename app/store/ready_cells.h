@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace qchopper {
 
@@ -16,5 +17,16 @@ std::filesystem::path ready_cells();
 // $XDG_CONFIG_HOME (~/.config if that is not set; XDG Base Directory Specification 0.8) and in ready_cells(), in this
 // order. Throws InputError (missing) where none has it.
 std::filesystem::path cell_file_of(const std::string& text);
+
+// A cell file that can be chosen by name.
+struct ReadyCell {
+    std::string name;      // of the file, without .toml
+    std::string sentence;  // the name that the file gives the cell, or why it cannot be read
+    std::filesystem::path path;
+};
+
+// Those of `folder`, of its folder cells, of qchopper/cells of the user's settings, and of ready_cells(), in this order
+// and by name; of two with the same name the first. A file of `folder` that is no cell file is left out.
+std::vector<ReadyCell> ready_cell_files(const std::filesystem::path& folder);
 
 }  // namespace qchopper

@@ -132,14 +132,16 @@ void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedMod
 
 void check_load(const std::optional<StructureOptions>& load, const Weights& weights) {
     if (weights.structure <= 0 || load) return;
-    throw InputError(InputFault::use, "the objective structure needs to know how the scan stands and is loaded",
-                     "leave its weight out, or make a new project with --structure");
+    throw InputError(
+        InputFault::use, "the objective structure needs to know how the scan stands and is loaded",
+        Sentence::with_key("new_with_structure", {}, "leave its weight out, or make a new project with a load"));
 }
 
 void check_symmetry(const std::optional<SymmetryPlane>& plane, const Weights& weights) {
     if (weights.symmetry <= 0 || plane) return;
     throw InputError(InputFault::use, "the objective symmetry needs the symmetry plane of the scan",
-                     "leave its weight out, or make a new project with --symmetry");
+                     Sentence::with_key("new_with_symmetry", {},
+                                        "leave its weight out, or make a new project with a symmetry plane"));
 }
 
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,

@@ -73,7 +73,8 @@ std::string describe_tools(const std::vector<std::uint16_t>& numbers) {
 Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers) {
     if (numbers.empty()) return cell;
     if (!cell.machine) {
-        throw InputError(InputFault::use, "the cell file describes no machine, and has one tool", "leave --tools out");
+        throw InputError(InputFault::use, "the cell file describes no machine, and has one tool",
+                         Sentence::with_key("leave_tools", {}, "leave out which tools may be used"));
     }
     const std::vector<std::uint16_t> listed = numbers_of(cell.machine->tools);
     for (const std::uint16_t number : numbers) {

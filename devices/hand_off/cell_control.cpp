@@ -62,16 +62,20 @@ class Control {
         end_.status = last;
     }
 
-    std::string to_do() const {
-        const std::string ask = cell_command(order_.address, "status");
+    Sentence to_do() const {
+        const std::string& address = order_.address;
         const bool stops = !needs_lease(order_.command);  // Stop, Hold, Abort
         if (end_.kind == Kind::done) return {};
         if (end_.kind == Kind::unknown && stops) {
-            return "If the machine must stop now, press the red button at the cell. Then ask the cell: " + ask;
+            return Sentence::with_key(
+                "stop_then_ask_cell", {address},
+                "If the machine must stop now, press the red button at the cell. Then ask the cell.");
         }
-        if (end_.kind == Kind::unknown) return "Look at the cell, then ask it: " + ask;
+        if (end_.kind == Kind::unknown) {
+            return Sentence::with_key("look_then_ask_cell", {address}, "Look at the cell, then ask it.");
+        }
         if (is_store_lost_) {
-            return "Look at the cell, then accept its memory: " + cell_command(order_.address, "accept-store");
+            return Sentence::with_key("look_then_accept_store", {address}, "Look at the cell, then accept its memory.");
         }
         switch (end_.result) {
             case AckResult::local_control:
@@ -79,15 +83,13 @@ class Control {
                                "here."
                              : "Use the panel of the cell, or set it to remote.";
             case AckResult::lease_busy:
-                return "Wait until the other dispatcher has finished (" + ask +
-                       "), or end its lease by the code of the panel: " +
-                       cell_command(order_.address, "take-over --code N");
+                return wait_or_take_over(address);
             case AckResult::no_consent:
                 return "Ask the operator at the cell, then send it again.";
             case AckResult::safety_open:
                 return "Close the door and release the emergency stop, then send it again.";
             default:
-                return "See what the cell shows: " + ask;
+                return Sentence::with_key("see_cell", {address}, "See what the cell shows.");
         }
     }
 

@@ -32,7 +32,7 @@ struct ControlEnd {
     Kind kind = Kind::unknown;
     AckResult result = AckResult::none;  // of the cell, or the one that it would give
     std::string why;                     // one sentence: what happened, and whether foam is being cut
-    std::string to_do;                   // one sentence; empty after `done`
+    Sentence to_do;                      // one sentence; empty after `done`
     Status status;                       // the last one read
 };
 

@@ -25,7 +25,7 @@ std::optional<double> pause_before_next_contact(const HandOffInput& failed, int 
 struct ContactFailure {
     DeviceFault fault = DeviceFault::unreachable;
     std::string why;
-    std::string to_do;
+    Sentence to_do;
 };
 // `failed` has ended without a STATUS. Fault `protocol` only if something has answered that is no cell of this map.
 ContactFailure contact_failure(const HandOffInput& failed);

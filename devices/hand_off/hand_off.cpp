@@ -117,7 +117,7 @@ HandOffAction try_contact_again(StepContext& context) {
 }
 
 // After a refusal that does not concern the job: CANCEL and RELEASE as far as that is still possible.
-HandOffAction back_out(StepContext& context, const std::string& why, const std::string& to_do) {
+HandOffAction back_out(StepContext& context, const std::string& why, const Sentence& to_do) {
     HandOff& h = context.h;
     if (h.step == HandOffStep::release || !h.claim_sent) return give_up(context, why, to_do);
     const bool is_withdrawn = !h.why.empty();

@@ -22,6 +22,6 @@ const char* name(HandOffStep step);
 HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);
 
 // What the operator can do after a refusal; "" if nothing is known.
-const char* remedy(AckResult refusal);
+Sentence remedy(AckResult refusal);
 
 }  // namespace qchopper

@@ -52,12 +52,9 @@ HandOffAction claim_refused(StepContext& context, AckResult result, const std::s
     const bool is_busy = result == AckResult::lease_busy;
     if (!h.start_sent && !h.is_stored && !h.is_started) {
         if (result == AckResult::stale_epoch) return fence(context, "another dispatcher claimed the cell first");
-        return fail(
-            context, is_busy ? DeviceFault::busy : DeviceFault::refused,
-            "the cell cannot be claimed: " + answer + (is_busy ? holder(context.status()) : ""),
-            is_busy ? "Wait until the other one has finished (" + cell_command(context, "status") +
-                          "), or end its lease by the code of the panel: " + cell_command(context, "take-over --code N")
-                    : "");
+        return fail(context, is_busy ? DeviceFault::busy : DeviceFault::refused,
+                    "the cell cannot be claimed: " + answer + (is_busy ? holder(context.status()) : ""),
+                    is_busy ? wait_or_take_over(context.plan.options.address) : Sentence());
     }
     h.is_owner = h.claim_sent = false;
     if (!is_busy) return give_up(context, "the cell cannot be claimed again: " + answer, remedy(result));

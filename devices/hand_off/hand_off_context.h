@@ -28,7 +28,7 @@ struct StepContext {
         turn.journal.back().job_id = plan.ticket.job_id;
         return turn.journal.back();
     }
-    void set_reason(const std::string& why, const std::string& to_do) {
+    void set_reason(const std::string& why, const Sentence& to_do) {
         h.why = why;
         h.to_do = to_do;
         report(why);
@@ -57,14 +57,12 @@ constexpr int max_tokenless = 3;       // acknowledged PREPAREs without a token
 std::string foam(const StepContext& context);
 // The cell has shown our job as ended or aborted.
 bool has_ended(const StepContext& context);
-// "qchopper cell status --to HOST:PORT", for `words` "status".
-std::string cell_command(const StepContext& context, const std::string& words);
-// What to do first at UNKNOWN.
-std::string look_first(const StepContext& context);
+// What to do at UNKNOWN: look at the cell, and then this.
+Sentence look_first(const StepContext& context, Sentence then);
 // What to do where asking the cell again would give the same answer.
-std::string accept_memory(const StepContext& context);
+Sentence accept_memory(const StepContext& context);
 // What to do after this verdict where nothing better is known; "" after a complete end.
-std::string usual_remedy(const StepContext& context, StartOutcome start_outcome);
+Sentence usual_remedy(const StepContext& context, StartOutcome start_outcome);
 
 // hand_off.cpp
 HandOffAction plain(Kind kind);
@@ -110,14 +108,14 @@ void end_request(StepContext& context, CommandEnd end, const std::string& why = 
 
 // hand_off_end.cpp
 HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
-                     const std::string& to_do = {});
+                     const Sentence& to_do = {});
 // Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED. The
 // reason is completed by what is known of the foam, and by what to do if `to_do` is empty.
-HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
+HandOffAction give_up(StepContext& context, const std::string& why, const Sentence& to_do = {});
 // Finishes with an error, before anything was started.
-HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
+HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const Sentence& to_do);
 // The job will not be started: CANCEL if the cell may hold it, RELEASE, and the end with this `why`.
-HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
+HandOffAction withdraw(StepContext& context, const std::string& why, const Sentence& to_do);
 // The caller has asked to stop: the action that follows from that, or nothing if the hand-off ends already.
 std::optional<HandOffAction> leave(StepContext& context);
 // Asked to stop while the job runs: RELEASE, or Stop if the options order it.

@@ -7,8 +7,7 @@
 
 namespace qchopper::hand_off {
 
-HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why,
-                     const std::string& to_do) {
+HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std::string& why, const Sentence& to_do) {
     context.h.start_outcome = start_outcome;
     if (context.h.why.empty()) {
         context.h.why = why;
@@ -16,7 +15,7 @@ HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std
     }
     context.h.why += "; " + foam(context);
     if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, start_outcome);
-    if (start_outcome == StartOutcome::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
+    if (start_outcome == StartOutcome::unknown) context.h.to_do = look_first(context, context.h.to_do);
     if (context.h.cancelled && start_outcome == StartOutcome::not_started && context.h.claim_sent &&
         !context.h.is_given_back) {
         context.h.why += "; the cell did not confirm that it dropped the job";
@@ -30,19 +29,19 @@ HandOffAction finish(StepContext& context, StartOutcome start_outcome, const std
     return plain(Kind::finish);
 }
 
-HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
+HandOffAction give_up(StepContext& context, const std::string& why, const Sentence& to_do) {
     if (context.h.contradicts_itself) return finish(context, StartOutcome::unknown, why, to_do);
     if (context.h.is_started) return finish(context, StartOutcome::started, why, to_do);
     if (context.may_have_started()) return finish(context, StartOutcome::unknown, why, to_do);
     return finish(context, StartOutcome::not_started, why, to_do);
 }
 
-HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do) {
+HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const Sentence& to_do) {
     context.h.fault = fault;
     return give_up(context, why, to_do);
 }
 
-HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do) {
+HandOffAction withdraw(StepContext& context, const std::string& why, const Sentence& to_do) {
     context.set_reason(why, to_do);
     if (context.h.is_stored) return enter(context, HandOffStep::cancel);
     if (context.h.claim_sent) return enter(context, HandOffStep::release);
@@ -51,9 +50,10 @@ HandOffAction withdraw(StepContext& context, const std::string& why, const std::
 
 namespace {
 
-std::string stop_there(const StepContext& context) {
-    return "If it must not run on: " + cell_command(context, "stop") +
-           ", or the panel of the cell. The next dispatch follows it to its end.";
+Sentence stop_there(const StepContext& context) {
+    return Sentence::with_key(
+        "stop_there", {context.plan.options.address},
+        "If it must not run on: Stop, here or at the panel of the cell. The next dispatch follows it to its end.");
 }
 
 void set_reason_of_request(StepContext& context) {

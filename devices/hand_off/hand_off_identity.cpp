@@ -42,7 +42,7 @@ std::optional<HandOffAction> on_bad_identity(StepContext& context) {
     if (++h.bad_identities < max_bad_identities) return std::nullopt;
     const std::string why = "the cell's IDENTITY cannot be read: it is " + std::string(describe(context.in.fault)) +
                             ", " + std::to_string(h.bad_identities) + " times in a row";
-    const std::string to_do = "Check gateway and cable; tell the integrator of the cell.";
+    const Sentence to_do = "Check gateway and cable; tell the integrator of the cell.";
     return h.claim_sent ? give_up(context, why, to_do) : fail(context, DeviceFault::protocol, why, to_do);
 }
 

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "devices/hand_off/hand_off_context.h"
+#include "devices/hand_off/operator_text.h"
 
 namespace qchopper::hand_off {
 namespace {
@@ -50,7 +51,8 @@ HandOffAction report_end(StepContext& context) {
                 ? "the job ran to its end"
                 : std::string("the job started and was ") + name(result.state) + " (" + name(result.result) + ")";
     if (result.state == JobState::aborted)
-        h.to_do = "Look at the cell. The file is carved once more only with --again.";
+        h.to_do = Sentence::with_key("look_then_carve_again", {},
+                                     "Look at the cell. The file is carved once more only if that is asked for.");
     return enter(context, h.claim_sent ? clear_result : release);
 }
 
@@ -77,8 +79,7 @@ HandOffAction on_file_result(StepContext& context) {
         return enter(context, make_ready);
     }
     h.milled_before = result;
-    return withdraw(context, "the cell has carved this file before: " + before,
-                    "Pass --again if it is to be carved once more.");
+    return withdraw(context, "the cell has carved this file before: " + before, carve_again());
 }
 
 // Another client may have sent a QUERY in between.

@@ -111,10 +111,11 @@ HandOffAction clear_other_job(StepContext& context) {
         return send_new(context, CellCommand::cancel, status.job_id);
     }
     context.h.fault = DeviceFault::busy;
-    return withdraw(context,
-                    "the cell has job " + to_text(status.job_id) + " of another dispatcher, which is " +
-                        name(status.job_state) + ": " + foam_in(status.state),
-                    "Try again when it has ended: " + cell_command(context, "status"));
+    return withdraw(
+        context,
+        "the cell has job " + to_text(status.job_id) + " of another dispatcher, which is " + name(status.job_state) +
+            ": " + foam_in(status.state),
+        Sentence::with_key("try_again_later", {context.plan.options.address}, "Try again when it has ended."));
 }
 
 }  // namespace
@@ -201,9 +202,9 @@ HandOffAction make_idle(StepContext& context) {
     }
     if (context.now_s - context.h.step_since_s > context.timings().answer_s) {
         context.h.fault = DeviceFault::busy;
-        return withdraw(
-            context, std::string("the cell stays in ") + name(status.state) + ": " + foam_in(status.state),
-            "Look at the panel of the cell. Dispatch again when it is in Idle: " + cell_command(context, "status"));
+        return withdraw(context, std::string("the cell stays in ") + name(status.state) + ": " + foam_in(status.state),
+                        Sentence::with_key("wait_for_idle", {context.plan.options.address},
+                                           "Look at the panel of the cell. Dispatch again when it is in Idle."));
     }
     return pause(context);
 }

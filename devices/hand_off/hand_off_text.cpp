@@ -35,34 +35,33 @@ std::string foam(const StepContext& context) {
     return clause + (is_simulated ? " (it is SIMULATED: nothing moves)" : "");
 }
 
-std::string cell_command(const StepContext& context, const std::string& words) {
-    return qchopper::cell_command(context.plan.options.address, words);
+Sentence look_first(const StepContext& context, Sentence then) {
+    std::string text = "Go to the cell and look whether it cuts. Ask it. " + then.text;
+    return Sentence::with_key("look_first", {context.plan.options.address, std::move(then)}, std::move(text));
 }
 
-std::string look_first(const StepContext& context) {
-    return "Go to the cell and look whether it cuts. Ask it: " + cell_command(context, "status") + ".";
+Sentence accept_memory(const StepContext& context) {
+    return Sentence::with_key("accept_memory", {context.plan.options.address},
+                              "Look at the cell and what it has cut, then accept its memory.");
 }
 
-std::string accept_memory(const StepContext& context) {
-    return "Look at the cell and what it has cut, then accept its memory: " + cell_command(context, "accept-store");
-}
-
-std::string usual_remedy(const StepContext& context, StartOutcome start_outcome) {
+Sentence usual_remedy(const StepContext& context, StartOutcome start_outcome) {
     if (start_outcome == StartOutcome::not_started) {
         return "Look at the panel of the cell, mend the cause, and dispatch again.";
     }
     if (start_outcome == StartOutcome::unknown) return "The next dispatch asks the cell before it sends a job.";
     if (is_complete(context)) return {};
     if (has_ended(context)) return "Look at the cell and at the piece before the next dispatch.";
-    return "Look at the cell: " + cell_command(context, "status") + ". The next dispatch follows the job to its end.";
+    return Sentence::with_key("look_at_job", {context.plan.options.address},
+                              "Look at the cell. The next dispatch follows the job to its end.");
 }
 
 }  // namespace qchopper::hand_off
 
 namespace qchopper {
 
-const char* remedy(AckResult refusal) {
-    struct Remedy {
+Sentence remedy(AckResult refusal) {
+    struct RefusalRow {
         AckResult refusal;
         const char* text;
     };
@@ -70,7 +69,7 @@ const char* remedy(AckResult refusal) {
     constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
     constexpr const char* again = "Dispatch it again: that is a new job with a token of its own.";
     constexpr const char* full_disk = "Free space on the disk of the cell.";
-    constexpr Remedy remedies[] = {
+    constexpr RefusalRow remedies[] = {
         {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
         {AckResult::file_missing, "Check that the drop folder is the one from which the cell fetches job files."},
         {AckResult::hash_mismatch, changed},
@@ -83,15 +82,17 @@ const char* remedy(AckResult refusal) {
         {AckResult::ticket_field, other_cell},
         {AckResult::token_bad, again},
         {AckResult::token_expired, again},
-        {AckResult::rehearsal_required, "Pass --rehearse."},
         {AckResult::safety_open, "Close the door and release the emergency stop, then dispatch again."},
         {AckResult::local_control, "Set the panel of the cell to remote, then dispatch again."},
         {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
     };
-    for (const Remedy& row : remedies) {
+    if (refusal == AckResult::rehearsal_required) {
+        return Sentence::with_key("rehearse", {}, "Let the cell rehearse the job first.");
+    }
+    for (const RefusalRow& row : remedies) {
         if (row.refusal == refusal) return row.text;
     }
-    return "";
+    return {};
 }
 
 const char* name(HandOffStep step) {

@@ -60,8 +60,14 @@ std::string dispatcher_name(std::uint32_t owner) {
     return text;
 }
 
-std::string cell_command(const std::string& address, const std::string& words) {
-    return "qchopper cell " + words + (address.empty() ? "" : " --to " + address);
+Sentence carve_again() {
+    return Sentence::with_key("carve_again", {}, "Ask for it to be carved again if it is to be carved once more.");
+}
+
+Sentence wait_or_take_over(const std::string& address) {
+    return Sentence::with_key(
+        "wait_or_take_over", {address},
+        "Wait until the other dispatcher has finished, or end its lease by the code of the panel.");
 }
 
 }  // namespace qchopper

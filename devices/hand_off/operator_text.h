@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/sentence.h"
 #include "devices/wire/packml.h"
 
 namespace qchopper {
@@ -19,7 +20,10 @@ std::string in_words(CellCommand command);
 // "dispatcher 0x1234ABCD", by its OWNER number.
 std::string dispatcher_name(std::uint32_t owner);
 
-// "qchopper cell status --to HOST:PORT" for `words` "status"; without an address if that is empty.
-std::string cell_command(const std::string& address, const std::string& words);
+// What to do where a file was carved before.
+Sentence carve_again();
+
+// What to do while another dispatcher has the lease of the cell at this address, which may be empty.
+Sentence wait_or_take_over(const std::string& address);
 
 }  // namespace qchopper

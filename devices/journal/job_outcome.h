@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sentence.h"
 #include "cam/job/ticket.h"
 #include "devices/wire/codes.h"
 
@@ -30,7 +31,7 @@ struct HandOffEnd {
     bool store_is_lost = false;           // CELL_STORE_LOST
     double elapsed_s = 0;                 // of the job, counted by the cell
     std::string why;                      // one sentence: how it ended
-    std::string to_do;                    // one sentence, may be empty
+    Sentence to_do;                       // may be empty
 };
 
 struct JobOutcome : HandOffEnd {

@@ -7,6 +7,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "base/sentence.h"
 
 namespace qchopper {
 
@@ -20,11 +23,11 @@ enum class DeviceFault {
 class DeviceError : public std::runtime_error {
  public:
     // `what_failed` names the cell and the reason; `to_do_next` is one sentence, or empty.
-    DeviceError(DeviceFault fault_kind, const std::string& what_failed, std::string to_do_next = {})
+    DeviceError(DeviceFault fault_kind, const std::string& what_failed, Sentence to_do_next = {})
         : std::runtime_error(what_failed), fault(fault_kind), to_do(std::move(to_do_next)) {}
 
     DeviceFault fault;
-    std::string to_do;
+    Sentence to_do;
 };
 
 }  // namespace qchopper

@@ -26,14 +26,15 @@ std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& nam
     const std::optional<double> agreed = agreed_mm_per_unit(scan.mm_per_unit, options.mm_per_unit, name);
     if (agreed || options.may_lack_unit) return agreed;
     throw InputError(InputFault::use, name + " is " + name_of(scan.format) + ", which has no unit",
-                     "pass --units mm, cm, m or in");
+                     Sentence::with_key("give_unit", {}, "give the unit of the scan: mm, cm, m or in"));
 }
 
 void check(const ImportOptions& options) {
     const double unit = options.mm_per_unit.value_or(1);
     const double factor = unit * options.scale;
     if (unit > 0 && options.scale > 0 && std::isfinite(factor) && factor != 0) return;
-    throw InputError(InputFault::use, "units and scale must be positive numbers", "leave --scale out for 1");
+    throw InputError(InputFault::use, "units and scale must be positive numbers",
+                     Sentence::with_key("leave_scale", {}, "leave the scale out for 1"));
 }
 
 // Around the points of all triangles, of which there is at least one.
@@ -53,12 +54,12 @@ void check_range(const Box& box, double mm_per_unit, const std::string& name) {
         throw InputError(InputFault::mesh,
                          name + " reaches to (" + place(box.max) + ") and (" + place(box.min) +
                              "): more than 100 000 km from its origin",
-                         "check --units, or export the scan again");
+                         Sentence::with_key("check_unit", {}, "check the unit, or export the scan again"));
     }
 }
 
 std::string scale_warning(double scale) {
-    return "The scan is scaled by " + significant(scale, 6) + " (--scale): its pieces are not in true size.";
+    return "The scan is scaled by " + significant(scale, 6) + ": its pieces are not in true size.";
 }
 
 // Throws InputError (mesh) for a result that is no solid. One that may be open must have faces.
@@ -85,7 +86,7 @@ bool is_usual_size(Vec3 size) {
 }
 
 std::string size_warning(Vec3 size) {
-    return "The scan measures " + describe_size(size) + ": is --units right?";
+    return "The scan measures " + describe_size(size) + ": is its unit right?";
 }
 
 RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {

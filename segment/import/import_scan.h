@@ -38,7 +38,7 @@ std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::opt
 
 // A bone, or a model of one, is 1 cm to 20 m long: another length tells of a wrong unit. Lengths in mm.
 bool is_usual_size(Vec3 size);
-// "The scan measures 3.0 mm x 2.0 mm x 1.0 mm: is --units right?", of a size that is not usual.
+// "The scan measures 3.0 mm x 2.0 mm x 1.0 mm: is its unit right?", of a size that is not usual.
 std::string size_warning(Vec3 size);
 
 struct ImportOptions {

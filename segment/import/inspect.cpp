@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
+#include <functional>
 
 #include "base/text.h"
 #include "segment/mesh/connectivity/containment.h"
@@ -43,6 +43,7 @@ class Inspecting {
 
     Inspection inspect() {
         step("points welded");
+        add_collapsed_places(result_.places, mesh_);
         const WeldCounts counts = weld(mesh_);
         result_.welded += counts.welded;
         result_.collapsed = counts.collapsed;
@@ -82,13 +83,17 @@ class Inspecting {
         result.pairs = found.pairs.size();
         result.is_complete = found.is_complete;
         const double apart = places_apart * norm(result_.box.size());
+        std::vector<Vec3> places;
         for (const auto& pair : found.pairs) {
-            if (result.places.size() == max_places) break;
+            if (places.size() == max_places_of_kind) break;
             const Vec3 place = meeting_place(mesh_, pair);
-            const bool is_near = std::any_of(result.places.begin(), result.places.end(),
-                                             [&](Vec3 other) { return norm(place - other) < apart; });
-            if (!is_near) result.places.push_back(place);
+            const bool is_near =
+                std::any_of(places.begin(), places.end(), [&](Vec3 other) { return norm(place - other) < apart; });
+            if (!is_near) places.push_back(place);
         }
+        add_places(result_.places, "self_intersections", places.size(), [&](std::size_t i) { return places[i]; });
+        places.resize(std::min(places.size(), max_places));
+        result.places = std::move(places);
         result_.self_intersected = std::move(result);
     }
 
@@ -97,9 +102,12 @@ class Inspecting {
         result_.open_edges = links_.faults.open;
         result_.inconsistent = links_.faults.inconsistent;
         result_.non_manifold = links_.faults.non_manifold;
-        result_.touching = count_touching();
+        const std::vector<IrregularEdge> edges = irregular_edges(mesh_, links_);
+        result_.touching = static_cast<std::size_t>(
+            std::count_if(edges.begin(), edges.end(), std::mem_fn(&IrregularEdge::is_touching)));
         result_.non_manifold_vertices = links_.extra_fans.size();
         result_.repeated = links_.repeated;
+        add_link_places(result_.places, mesh_, links_, edges);
         // As in repair, surfaces that only touch in points are two shells; not in a mesh with non-manifold edges, which
         // would fall into pieces.
         if (result_.non_manifold + result_.inconsistent == 0) split_fans(mesh_, links_.extra_fans);
@@ -112,19 +120,14 @@ class Inspecting {
             }
             result_.holes.push_back(hole);
         }
+        add_places(result_.places, "holes", result_.holes.size(),
+                   [&](std::size_t i) { return result_.holes[i].centre; });
     }
 
-    // Edges of a wall between two solids, or where a solid touches itself: once they are split, nothing is open.
-    std::size_t count_touching() const {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> ways;
-        for (const std::uint32_t h : links_.non_manifold) {
-            const std::uint32_t from = start_of(mesh_, h);
-            const std::uint32_t to = end_of(mesh_, h);
-            std::pair<std::size_t, std::size_t>& way = ways[std::minmax(from, to)];
-            ++(from < to ? way.first : way.second);
-        }
-        return static_cast<std::size_t>(std::count_if(
-            ways.begin(), ways.end(), [](const auto& edge) { return edge.second.first == edge.second.second; }));
+    // Of shells: the centres of their boxes.
+    void add_shell_places(const char* kind, const std::vector<std::size_t>& found) {
+        add_places(result_.places, kind, found.size(),
+                   [&](std::size_t i) { return 0.5 * (shells_.box[found[i]].min + shells_.box[found[i]].max); });
     }
 
     void count_shells() {
@@ -138,12 +141,15 @@ class Inspecting {
             extend(result_.box, shells_.box[s].max);
         }
         area_.assign(shells_.count(), 0);
+        std::vector<std::uint32_t> degenerate;
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const double area = norm(area_vector(mesh_, t));
-            result_.degenerate += area == 0;
+            if (area == 0) degenerate.push_back(static_cast<std::uint32_t>(t));
             area_[shells_.shell_of[t]] += area;
         }
         for (const double area : area_) result_.area += area;
+        result_.degenerate = degenerate.size();
+        add_face_places(result_.places, "faces_without_area", mesh_, degenerate);
         is_open_.assign(shells_.count(), false);
         for (const std::vector<std::uint32_t>* half_edges : {&links_.open, &links_.non_manifold}) {
             for (const std::uint32_t h : *half_edges) is_open_[shells_.shell_of[h / 3]] = true;
@@ -165,16 +171,19 @@ class Inspecting {
         std::vector<double> area_of_solid = area_;
         std::vector<bool> is_solid = is_open_;
         is_solid.flip();
+        std::vector<std::size_t> cavities;
+        std::vector<std::size_t> inside_out;
+        std::vector<std::size_t> fragments;
         const IndexLists around = shells_around(mesh_, shells_, is_negative);
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!is_negative[s]) continue;
             if (around[s].empty()) {
-                ++result_.inside_out;
+                inside_out.push_back(s);
                 of_solid[s] = -of_solid[s];
                 whole += 2 * of_solid[s];
                 continue;
             }
-            ++result_.cavities;
+            cavities.push_back(s);
             is_solid[s] = false;
             const std::uint32_t outer = *std::min_element(around[s].begin(), around[s].end(), [&](auto a, auto b) {
                 return std::abs(shells_.volume[a]) < std::abs(shells_.volume[b]);
@@ -185,10 +194,16 @@ class Inspecting {
         double area = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!is_solid[s] || !(of_solid[s] < fragment_share * whole)) continue;
-            ++result_.fragments;
+            fragments.push_back(s);
             area += area_of_solid[s];
         }
         if (result_.area > 0) result_.fragment_area_share = area / result_.area;
+        result_.cavities = cavities.size();
+        result_.inside_out = inside_out.size();
+        result_.fragments = fragments.size();
+        add_shell_places("cavities", cavities);
+        add_shell_places("inside_out", inside_out);
+        add_shell_places("fragments", fragments);
     }
 
     // The area of a hole is that of its loop projected along its mean normal: no fill is smaller.
@@ -203,12 +218,15 @@ class Inspecting {
             lids[shells_.shell_of[loop[0] / 3]] += 0.5 * norm(sum);
         }
         double area = 0;
+        std::vector<std::size_t> open_components;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!(lids[s] > max_fill_of_surface * area_[s])) continue;
-            ++result_.open_components;
+            open_components.push_back(s);
             area += area_[s];
         }
         if (result_.area > 0) result_.open_component_area_share = area / result_.area;
+        result_.open_components = open_components.size();
+        add_shell_places("open_components", open_components);
     }
 
     const InspectOptions& options_;

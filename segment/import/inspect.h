@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/context.h"
+#include "segment/import/fault_places.h"
 #include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/report.h"
@@ -65,6 +66,7 @@ struct Inspection {
     double volume = 0;                                // signed, file unit cubed; meaningful only when closed
     double area = 0;                                  // file unit squared
     std::optional<SelfIntersected> self_intersected;  // with InspectOptions::deep
+    std::vector<FaultPlaces> places;                  // a few of each kind of fault that there is
     std::optional<Refusal> refused;  // by repair(), as its result is no solid; nothing: it makes a solid of the scan
 
     bool is_closed() const { return open_edges == 0 && inconsistent == 0 && non_manifold == 0; }

@@ -45,7 +45,7 @@ Unit unit_of(double mm) {
         if (units[i].mm == mm) return static_cast<Unit>(i);
     }
     throw InputError(InputFault::use, "a unit of " + significant(mm, 6) + " mm has no name",
-                     "pass --units mm, cm, m or in");
+                     Sentence::with_key("give_unit", {}, "give the unit of the scan: mm, cm, m or in"));
 }
 
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
@@ -53,8 +53,10 @@ std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::opt
     if (in_file && given && *in_file != *given) {
         throw InputError(
             InputFault::use,
-            name + " has the unit " + describe_unit(*in_file) + ", but --units is " + describe_unit(*given),
-            "leave --units out; if the file is wrong, save it in a format without units, such as PLY");
+            name + " has the unit " + describe_unit(*in_file) + ", but it is to be read in " + describe_unit(*given),
+            Sentence::with_key(
+                "leave_unit", {},
+                "leave the unit to the file; if it is wrong, save it in a format without units, such as PLY"));
     }
     return in_file ? in_file : given;
 }

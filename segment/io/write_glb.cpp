@@ -169,7 +169,7 @@ void check_size(const GlbScene& scene) {
     constexpr double most = 4.2e9;  // the length of the file has 32 bits; the rest is left to the JSON
     if (bytes > most) {
         throw InputError(InputFault::use, "the pieces are too large for one GLB file, which ends at 4 GiB",
-                         "export them one by one with --piece, or simplify them");
+                         Sentence::with_key("export_one_by_one", {}, "export them one by one, or simplify them"));
     }
 }
 

@@ -80,8 +80,10 @@ void grow(FloatBox& box, const FloatBox& by) {
     }
 }
 
-// Squared distance from a point to a box, in the tree's coordinates; a little less than the true one.
+// Squared distance from a point to a box, in the tree's coordinates; a little less than the true one. Infinite for an
+// empty box: up to half of the leaves are empty, and none of them is to be entered.
 double squared_distance(const FloatBox& box, Vec3 p) {
+    if (box.min[0] > box.max[0]) return std::numeric_limits<double>::infinity();
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);

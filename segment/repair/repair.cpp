@@ -207,7 +207,7 @@ void check(const RepairOptions& o) {
     if (!is_length(o.snap_borders_mm) || !is_length(o.alpha_wrap_mm) || !std::isfinite(o.mm_per_unit) ||
         !(o.mm_per_unit > 0) || !is_length(o.fill.flat_chord_share)) {
         throw InputError(InputFault::use, "lengths for the repair must be finite and not negative, in mm",
-                         "see qchopper repair --help");
+                         Sentence::with_key("help_of_repair", {}, "give lengths of 0 or more"));
     }
 }
 

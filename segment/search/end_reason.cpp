@@ -9,12 +9,12 @@ namespace qchopper {
 namespace {
 
 // The text before the figure of a sentence and the text after it.
-struct Sentence {
+struct EndSentence {
     EndReason reason;
     const char* before;
     const char* after;
 };
-constexpr std::array<Sentence, 6> sentences{{
+constexpr std::array<EndSentence, 6> sentences{{
     {EndReason::rules_hold, "the stop rules hold", ""},
     {EndReason::no_rule, "no stop rule is set", ""},
     {EndReason::no_plane, "no plane parts any of the unfinished pieces", ""},
@@ -26,7 +26,7 @@ constexpr std::array<Sentence, 6> sentences{{
 }  // namespace
 
 std::string describe(EndReason reason, const std::string& figure) {
-    const Sentence& s =
+    const EndSentence& s =
         *std::find_if(sentences.begin(), sentences.end(), [&](const auto& x) { return x.reason == reason; });
     return s.before + figure + s.after;
 }

@@ -15,6 +15,7 @@
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
 #include "segment/simplify/sampled_deviation.h"
+#include "segment/simplify/vertex_clustering.h"
 
 namespace qchopper {
 namespace {
@@ -35,8 +36,7 @@ void check(const SimplifyOptions& options) {
 }
 
 Links links_of_closed(const TriangleMesh& mesh) {
-    const bool has_edges = std::none_of(mesh.triangles.begin(), mesh.triangles.end(),
-                                        [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    const bool has_edges = std::none_of(mesh.triangles.begin(), mesh.triangles.end(), has_equal_corners);
     Links found;
     if (has_edges) found = links(mesh);
     if (mesh.triangles.empty() || !has_edges || !found.faults.is_closed()) {
@@ -54,9 +54,11 @@ std::vector<std::uint8_t> points_of_caps(const TriangleMesh& mesh) {
     return is_of_cap;
 }
 
-void measure(const TriangleMesh& mesh, const TriangleMesh& fewer, SimplifyReport& report, const Context& context) {
+void measure(const TriangleMesh& mesh, const TriangleMesh& fewer, const SimplifyOptions& options,
+             SimplifyReport& report, const Context& context) {
     report.from_piece = farthest_sample(mesh, fewer, context);
     report.from_result = farthest_sample(fewer, mesh, context);
+    if (options.is_quick) return;
     report.crossings = self_intersections(fewer, {}, context).pairs.size();
     if (report.crossings == 0) return;
     report.crossings -= std::min(report.crossings, self_intersections(mesh, {}, context).pairs.size());
@@ -75,7 +77,7 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
     for (int i = 0; i < max_tries; ++i) {
         TriangleMesh fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
-        measure(mesh, fewer, report, context);
+        measure(mesh, fewer, options, report, context);
         const bool is_near = report.deviation() <= *options.tolerance;
         if (is_near && report.crossings == 0) {
             mesh = std::move(fewer);
@@ -90,18 +92,19 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
 }
 
 // In passes; where these stop early although the caps would allow that number, by the queue.
-bool collapse_to(std::size_t max_faces, TriangleMesh& mesh, SimplifyReport& report, const Context& context) {
+bool collapse_to(std::size_t max_faces, TriangleMesh& mesh, const SimplifyOptions& options, SimplifyReport& report,
+                 const Context& context) {
     const std::vector<std::uint8_t> is_locked = points_of_caps(mesh);
     TriangleMesh fewer = collapse_in_passes(mesh, is_locked, max_faces, context);
     const bool is_enough = fewer.triangles.size() <= std::max(max_faces, report.cap_faces);
-    if (!is_enough || !links(fewer).faults.is_closed()) {
+    if (!options.is_quick && (!is_enough || !links(fewer).faults.is_closed())) {
         report.is_by_queue = true;
         CollapseLimits limits;
         limits.max_faces = max_faces;
         fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
     }
-    measure(mesh, fewer, report, context);
+    measure(mesh, fewer, options, report, context);
     mesh = std::move(fewer);
     return true;
 }
@@ -119,7 +122,7 @@ SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, cons
         TriangleMesh split = mesh;
         split_fans(split, found.extra_fans);  // the collapses need one fan of faces around every point
         const bool is_done = options.tolerance ? collapse_within(split, options, report, context)
-                                               : collapse_to(*options.max_faces, split, report, context);
+                                               : collapse_to(*options.max_faces, split, options, report, context);
         if (is_done) mesh = std::move(split);
     }
     report.faces_after = mesh.triangles.size();

@@ -20,6 +20,8 @@ namespace qchopper {
 struct SimplifyOptions {
     std::optional<double> tolerance;       // mm: as few faces as this deviation allows
     std::optional<std::size_t> max_faces;  // stop at this number; with a tolerance, at whichever comes first
+    // Without a tolerance, for display: by passes alone, where more faces may be left, and crossings are not counted.
+    bool is_quick = false;
 };
 
 struct SimplifyReport {
@@ -35,9 +37,9 @@ struct SimplifyReport {
 };
 
 // The mesh is unchanged if it has few enough faces already, or if no result keeps the tolerance. Throws InputError:
-// (use) without an option, or with a tolerance that is not above 0 or fewer than 4 faces; (mesh) if the mesh is not
-// closed. Throws Cancelled (base/context.h); the mesh is unchanged then. O(n) for n faces; with a tolerance O(n log n),
-// up to 8 times.
+// (use) without tolerance and max_faces, or with a tolerance that is not above 0 or fewer than 4 faces; (mesh) if the
+// mesh is not closed. Throws Cancelled (base/context.h); the mesh is unchanged then. O(n) for n faces; with a tolerance
+// O(n log n), up to 8 times.
 SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, const Context& context = {});
 
 }  // namespace qchopper

@@ -31,7 +31,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& name, std::size_t line, const std::string& why) {
     throw InputError(InputFault::config, name + ":" + std::to_string(line) + ": " + why,
-                     "docs/user/cell-sim.md lists the commands, `qchopper cell-sim --list-faults` the faults.");
+                     Sentence::with_key("list_faults", {}, "docs/user/cell-sim.md lists the commands and the faults."));
 }
 
 std::vector<std::string> words_of(std::string_view text) {

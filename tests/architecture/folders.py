@@ -1,7 +1,7 @@
 """A folder can be taken in at a glance: at most 40 files, and a README of about ten lines.
 
 The README says what the folder is, names its entry header, and then its landmarks, one line each: from three (or all
-headers, where there are fewer) to six files, and every folder in it. Whatever it names between `` and looks like a
+headers and sources of TypeScript, where there are fewer) to six files, and every folder in it. Whatever it names between `` and looks like a
 file or folder is there. faults(root) lists every violation in the tree at `root`.
 """
 
@@ -14,9 +14,9 @@ MOST_FILES = 40
 MOST_LINES = 24  # folders that hold many folders included
 LEAST_LANDMARKS, MOST_LANDMARKS = 3, 6
 
-ENTRY = re.compile(r"^Entry: `([\w/]+\.(?:h|cpp)|[\w/]+/)`")
+ENTRY = re.compile(r"^Entry: `([\w/]+\.(?:h|cpp|tsx?|html)|[\w/]+/)`")
 LANDMARK = re.compile(r"^- `([\w/.]+)`: \S")
-NAMED = re.compile(r"`([\w/.-]+(?:\.(?:h|cpp|md|txt|py|toml)|/))`")
+NAMED = re.compile(r"`([\w/.-]+(?:\.(?:h|cpp|tsx?|html|mjs|css|md|txt|py|toml)|/))`")
 
 
 def folders(root):
@@ -47,7 +47,7 @@ def readme_faults(folder, root):
     inner = {f"{path.name}/" for path in folder.iterdir() if path.is_dir()}
     for name in sorted(inner - set(marks)):
         yield f"its README has no line for {name}"
-    least = min(LEAST_LANDMARKS, len([path for path in folder.iterdir() if path.suffix == ".h"]))
+    least = min(LEAST_LANDMARKS, len([path for path in folder.iterdir() if path.suffix in (".h", ".ts", ".tsx")]))
     if not least <= len(files) <= MOST_LANDMARKS:
         yield f"its README has {len(files)} files as landmarks, {least} to {MOST_LANDMARKS} are asked for"
 

@@ -36,7 +36,7 @@ SUB_MODULES = {
     "cam": ["cell", "setup", "stock", "toolpath", "program", "post", "job", "export"],
     "devices": ["wire", "journal", "hand_off"],
     "sim": ["cell", "program", "replay"],
-    "app": ["store", "pictures", "jobs", "engine", "guide", "dispatch", "report", "cli"],
+    "app": ["store", "pictures", "jobs", "display", "engine", "guide", "dispatch", "report", "console", "cli"],
 }
 
 # What a module or sub-module may include beside itself, where that is less than everything before it. A name that ends
@@ -61,7 +61,8 @@ HEAVY = {
     "TBB": (r"tbb/", 1),
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
     "toml++": (r"toml\+\+/", 1),
-    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 24),
+    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 28),
+    "Beast": (r"boost/(beast|asio)/", 1),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),
     "SQLite": (r"sqlite3(ext)?\.h$", 1),

@@ -1,8 +1,9 @@
-// Two projects, a plan and a file of kept evaluations.
+// Two projects, a plan, a file of kept evaluations, a display mesh and its states.
 
 #include <filesystem>
 #include <memory>
 
+#include "app/display/display_format.h"
 #include "app/store/caches/evaluation_store.h"
 #include "app/store/plan.h"
 #include "app/store/project_json.h"
@@ -83,6 +84,23 @@ Bytes some_evaluations() {
     return bytes;
 }
 
+DisplayMesh some_display_mesh() {
+    TriangleMesh mesh;
+    mesh.points = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    mesh.cap_of = {2, no_cap, no_cap, 5};
+    return display_mesh(mesh, display_grid({{-1, -1, -1}, {9, 9, 9}}));
+}
+
+// As the fuzzer makes a head for it: three numbers in place of that of the file.
+Bytes without_counts(const DisplayMesh& mesh) {
+    Bytes bytes{static_cast<std::uint8_t>(mesh.points.size()), static_cast<std::uint8_t>(mesh.triangles.size()),
+                static_cast<std::uint8_t>(mesh.groups.size())};
+    const Bytes whole = encode_display_mesh(mesh);
+    bytes.insert(bytes.end(), whole.begin() + 20, whole.end());
+    return bytes;
+}
+
 Bytes to_bytes(const std::string& text) {
     return {text.begin(), text.end()};
 }
@@ -98,7 +116,10 @@ std::vector<Encoded> project_seeds() {
     return {{"project", "decided", to_bytes(project)},
             {"project", "new", to_bytes(to_json(Project{}))},
             {"plan", "two-cuts", to_bytes(plan)},
-            {"evaluations", "two-candidates", some_evaluations()}};
+            {"evaluations", "two-candidates", some_evaluations()},
+            {"display", "tetrahedron", encode_display_mesh(some_display_mesh())},
+            {"display", "without-counts", without_counts(some_display_mesh())},
+            {"display", "states", encode_display_states({std::string(32, 'a'), {0, 6, 4}})}};
 }
 
 }  // namespace qchopper

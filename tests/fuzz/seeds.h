@@ -10,7 +10,7 @@ namespace qchopper {
 
 // Of job files and cell files.
 std::vector<Encoded> job_seeds();
-// Of project.json, plans and kept evaluations.
+// Of project.json, plans, kept evaluations and display meshes.
 std::vector<Encoded> project_seeds();
 // Of register blocks, requests, and the simulated cell's memory.
 std::vector<Encoded> link_seeds();

@@ -215,7 +215,7 @@ class Pc {
         for (const DispatchedJob& one : handed) {
             judge(one.outcome);
             store_is_lost = store_is_lost || one.outcome.store_is_lost ||
-                            one.outcome.to_do.find("accept-store") != std::string::npos;
+                            one.outcome.to_do.text.find("accept its memory") != std::string::npos;
             for (std::size_t i = 0; i < open_.size(); ++i) {
                 if (open_[i].piece != one.piece) continue;
                 if (one.outcome.may_be_milled) look_at(open_[i]);

@@ -116,6 +116,7 @@ struct SegmentArguments : ProjectArguments {
     std::optional<std::filesystem::path> replayed;  // a plan to replay
     // Options of these.
     std::optional<std::string> expected_plane;  // nx,ny,nz,d
+    bool preview_setups = false;                // --setups
     std::optional<std::string> tried_weights;   // as ProjectArguments::weights
     std::optional<std::string> piece;
     std::optional<std::size_t> top;
@@ -219,6 +220,38 @@ struct CellControlArguments : CellChoiceArguments {
     bool yes = false;
 };
 
+struct ServeArguments {
+    std::filesystem::path folder = ".";  // of scans and projects, or a project
+    std::string listen = "127.0.0.1:8720";
+    std::string dispatch = "simulated";  // none | simulated | real
+    bool is_read_only = false;
+    std::optional<std::string> to;              // HOST:PORT of the cell; nothing: as the cell file of each project says
+    std::optional<std::filesystem::path> drop;  // of that cell
+    bool opens = false;                         // in the browser of the desktop
+    bool has_simulator = false;                 // with a simulated cell of its own
+    std::vector<std::string> hosts;             // more names of this server
+    std::optional<std::filesystem::path> key_file;
+};
+
+// The process that holds a project for serve.
+struct ConsoleWorkerArguments {
+    std::filesystem::path project;
+};
+
+// What serve draws of a scan.
+struct ConsoleMeshArguments {
+    std::filesystem::path scan;
+    std::filesystem::path folder;  // where it is kept
+};
+
+// What a person has painted in the page of serve, as files.
+struct ConsolePaintArguments {
+    std::filesystem::path scan;
+    std::filesystem::path strokes;
+    std::filesystem::path folder;
+    std::optional<std::string> units;
+};
+
 struct SchemaArguments {
     std::string document;  // manifest, envelope, ticket, verdict, project
 };
@@ -233,7 +266,8 @@ struct Arguments {
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
                  CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
                  GatherArguments, VerifyArguments, DryRunArguments, CellSimArguments, DispatchArguments,
-                 JournalArguments, CellControlArguments, SchemaArguments>
+                 JournalArguments, CellControlArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments,
+                 ConsoleMeshArguments, ConsolePaintArguments>
         command;
 };
 

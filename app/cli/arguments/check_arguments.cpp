@@ -106,6 +106,7 @@ void check_action(const SegmentArguments& a, const Action& action) {
     if (a.tried_weights && !a.step && !a.preview) {
         refuse("--try-weights has no effect on " + option, "use it with --step or --preview; --weights decides");
     }
+    if (a.preview_setups && !a.preview) refuse("--setups has no effect on " + option, "use it with --preview");
     if (a.time_limit_s && !a.goes_on) refuse("--time-limit has no effect on " + option, "use it with --auto");
     std::error_code error;
     if (a.weights && !action.takes_weights && std::filesystem::is_directory(a.input, error)) {

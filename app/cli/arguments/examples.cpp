@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 20> all_examples{{
+constexpr std::array<Examples, 21> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -53,6 +53,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper cells show cells/kr60-ha.toml -o reach.png
   qchopper cells check cells/kr60-ha.toml --json
   qchopper cells reach cells/kr60-ha.toml --tilt 30 --block 300,300,200)"},
+    {"serve", R"(  qchopper serve scans --open
+  qchopper serve skull.qch --cell-sim
+  qchopper serve scans --dispatch real --key-file ~/.qchopper-key)"},
     {"setup", R"(  qchopper setup vertebra.qch
   qchopper setup vertebra.qch --piece B
   qchopper setup vertebra.qch --piece B --base 2 --orientations 3)"},

@@ -234,6 +234,13 @@ std::vector<std::string> forbiddable() {
 }
 
 // Messages of their own: those of the option parser have type names and bounds of 300 digits.
+TcpAddress listen_address(const std::string& text) {
+    if (!text.ends_with(":0")) return parse_tcp_address(text);
+    TcpAddress address = parse_tcp_address(text.substr(0, text.size() - 2));
+    address.port = 0;
+    return address;
+}
+
 std::vector<std::uint16_t> ascending(std::vector<std::uint16_t> numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

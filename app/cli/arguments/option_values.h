@@ -11,6 +11,7 @@
 #include "app/engine/discard_request.h"
 #include "app/engine/work_project.h"
 #include "app/store/decisions.h"
+#include "devices/wire/modbus_tcp.h"
 #include "segment/io/formats/raw_mesh.h"
 #include "segment/mesh/plane.h"
 #include "segment/structure/stress.h"
@@ -48,6 +49,9 @@ std::optional<Shard> shard_from(const std::string& text);
 
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);
+
+// As parse_tcp_address(), which throws, but port 0 is allowed: any free port.
+TcpAddress listen_address(const std::string& text);
 
 // Numbers in ascending order, each once.
 std::vector<std::uint16_t> ascending(std::vector<std::uint16_t> numbers);

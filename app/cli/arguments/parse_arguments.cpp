@@ -104,6 +104,10 @@ struct Parser {
     JournalArguments journal_verify;
     CellControlArguments cell_control;
     SchemaArguments schema;
+    ServeArguments console;
+    ConsoleWorkerArguments console_worker;
+    ConsoleMeshArguments console_mesh;
+    ConsolePaintArguments console_paint;
 
     Parser() {
         app.footer(examples_of(""));
@@ -128,7 +132,9 @@ struct Parser {
         add_dispatch();
         add_journal();
         add_cell();
+        add_serve();
         add_schema();
+        add_console_worker();
         for (CLI::App* command : app.get_subcommands({})) {
             const std::string examples = examples_of(command->get_name());
             command->footer(examples);
@@ -216,6 +222,48 @@ struct Parser {
             ->required()
             ->check(one_of({"manifest", "envelope", "ticket", "verdict", "project", "commands"}));
         add_common(c, common, [this] { common.command = schema; });
+    }
+
+    void add_serve() {
+        CLI::App* c = app.add_subcommand("serve", "show and decide projects in a browser on this machine");
+        c->add_option("FOLDER", console.folder, "of the scans and projects, or the folder NAME.qch of a project (.)");
+        c->add_option(
+            "--listen", console.listen,
+            "HOST:PORT (127.0.0.1:8720); port 0 takes a free one. Beyond this machine no cell is handed work");
+        c->add_option("--dispatch", console.dispatch,
+                      "to which cells jobs may be handed: none, simulated or real (simulated)")
+            ->check(one_of({"none", "simulated", "real"}));
+        CLI::Option* to =
+            c->add_option("--to", console.to, "HOST:PORT of the cell (from the cell file of each project)");
+        c->add_option("--drop", console.drop,
+                      "with --to: the folder where that cell fetches job files; none: they go over the link")
+            ->needs(to);
+        c->add_flag("--open", console.opens, "open the link in the browser of this desktop");
+        c->add_flag("--cell-sim", console.has_simulator,
+                    "with a simulated cell, to which all jobs go and whose person answers in the page")
+            ->excludes(to);
+        c->add_flag("--read-only", console.is_read_only, "show, and change nothing");
+        c->add_option("--host", console.hosts, "one more name under which browsers reach this server");
+        c->add_option("--key-file", console.key_file,
+                      "take the key of this file, which only you can read, in place of a new one");
+        add_common(c, common, [this] { common.command = console; });
+    }
+
+    // Not listed: serve runs it.
+    void add_console_worker() {
+        CLI::App* c = app.add_subcommand("console-worker", "hold a project for serve")->group("");
+        c->add_option("PROJECT", console_worker.project)->required();
+        add_common(c, common, [this] { common.command = console_worker; });
+        c = app.add_subcommand("console-mesh", "make what serve draws of a scan")->group("");
+        c->add_option("SCAN", console_mesh.scan)->required();
+        c->add_option("FOLDER", console_mesh.folder)->required();
+        add_common(c, common, [this] { common.command = console_mesh; });
+        c = app.add_subcommand("console-paint", "mark what was painted in the page of serve")->group("");
+        c->add_option("SCAN", console_paint.scan)->required();
+        c->add_option("STROKES", console_paint.strokes)->required();
+        c->add_option("FOLDER", console_paint.folder)->required();
+        c->add_option("--units", console_paint.units);
+        add_common(c, common, [this] { common.command = console_paint; });
     }
 
     void add_cells() {

@@ -149,6 +149,7 @@ ProjectRequest request_of(const SegmentArguments& a) {
         if (place) request.preview = *place;
         if (!place) request.preview = *plane_from(*a.preview);
     }
+    request.preview_setups = a.preview_setups;
     if (a.discard) request.discard = discard_from(*a.discard);
     request.undo = a.undo;
     request.redo = a.redo;

@@ -273,6 +273,8 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     c->add_option("--preview", segment.preview, "what K or nx,ny,nz,d would make; cuts nothing")
         ->check(read_by([](const std::string& text) { return plane_from(text) || place_from(text); },
                         "neither a place in the ranking nor nx,ny,nz,d"));
+    c->add_flag("--setups", segment.preview_setups,
+                "with --preview: how the pieces would be milled, as setup shows it");
     c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
     c->add_flag("--write-pieces", segment.write_pieces, "write the pieces of the project folder after each decision");
     c->add_flag("--undo", segment.undo, "undo the last decision");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/command_line_text.h"
 #include "app/report/report_json.h"
 #include "base/printable.h"
 #include "base/text.h"
@@ -104,22 +105,23 @@ std::vector<std::string> lines(const CellControlReport& report) {
     std::vector<std::string> text{report.action + ": " + report.why +
                                   (report.simulated ? " (the cell is SIMULATED)" : "")};
     if (!report.state.empty()) text.push_back("the cell is in " + report.state);
-    if (!report.note.empty()) text.push_back(report.note);
-    if (!report.to_do.empty()) text.push_back("to do: " + report.to_do);
+    if (!report.note.empty()) text.push_back(command_line_text(report.note));
+    if (!report.to_do.empty()) text.push_back("to do: " + command_line_text(report.to_do));
     return text;
 }
 
 Document document(const CellControlReport& report) {
-    return compose(Json{{"schema", "qchopper-cell-command-1"},
-                        {"endpoint", report.endpoint},
-                        {"action", report.action},
-                        {"end", report.end},
-                        {"result", report.result.empty() ? Json() : Json(report.result)},
-                        {"why", printable(report.why)},
-                        {"note", report.note.empty() ? Json() : Json(report.note)},
-                        {"to_do", report.to_do.empty() ? Json() : Json(report.to_do)},
-                        {"simulated", report.simulated},
-                        {"state", report.state.empty() ? Json() : Json(report.state)}});
+    Json json{{"schema", "qchopper-cell-command-1"},
+              {"endpoint", report.endpoint},
+              {"action", report.action},
+              {"end", report.end},
+              {"result", report.result.empty() ? Json() : Json(report.result)},
+              {"why", printable(report.why)},
+              {"note", report.note.empty() ? Json() : Json(report.note.text)}};
+    add_to_do(json, report.to_do, report.to_do.empty() ? std::nullopt : std::optional(report.to_do.text));
+    json["simulated"] = report.simulated;
+    json["state"] = report.state.empty() ? Json() : Json(report.state);
+    return compose(std::move(json));
 }
 
 }  // namespace qchopper

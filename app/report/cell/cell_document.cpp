@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/cell/cell_report.h"
-#include "app/report/machine_reachability_report.h"
+#include "app/report/cell/machine_reachability_report.h"
 #include "app/report/report_json.h"
 #include "base/units.h"
 

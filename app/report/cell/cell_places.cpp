@@ -1,8 +1,8 @@
 // The map of places as text.
 
 #include "app/report/cell/cell_report.h"
+#include "app/report/cell/machine_reachability_report.h"
 #include "app/report/columns.h"
-#include "app/report/machine_reachability_report.h"
 #include "base/text.h"
 #include "base/units.h"
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/command_line_text.h"
 #include "app/report/report_json.h"
 #include "base/text.h"
 #include "base/uuid.h"
@@ -21,21 +22,22 @@ std::string ending(const JobOutcome& outcome) {
 
 Json job_json(const DispatchedJob& handed) {
     const JobOutcome& o = handed.outcome;
-    return {{"piece", handed.piece},
-            {"job_id", to_text(o.job_id)},
-            {"start_outcome", describe(o.start_outcome)},
-            {"is_ordered", handed.is_ordered},
-            {"carved_before", o.milled_before},
-            {"may_be_carved", o.may_be_milled},
-            {"store_is_lost", o.store_is_lost},
-            {"job_state", static_cast<int>(o.job_state)},
-            {"job_result", static_cast<int>(o.job_result)},
-            {"ended_complete", o.is_complete()},
-            {"starts", o.starts_known ? Json(o.starts) : Json()},
-            {"elapsed_s", o.elapsed_s},
-            {"why", o.why},
-            {"to_do", o.to_do},
-            {"log", o.log}};
+    Json json{{"piece", handed.piece},
+              {"job_id", to_text(o.job_id)},
+              {"start_outcome", describe(o.start_outcome)},
+              {"is_ordered", handed.is_ordered},
+              {"carved_before", o.milled_before},
+              {"may_be_carved", o.may_be_milled},
+              {"store_is_lost", o.store_is_lost},
+              {"job_state", static_cast<int>(o.job_state)},
+              {"job_result", static_cast<int>(o.job_result)},
+              {"ended_complete", o.is_complete()},
+              {"starts", o.starts_known ? Json(o.starts) : Json()},
+              {"elapsed_s", o.elapsed_s},
+              {"why", o.why}};
+    add_to_do(json, o.to_do, o.to_do.text);
+    json["log"] = o.log;
+    return json;
 }
 
 // Of those that are wanted so many ended complete before, and were passed over now.
@@ -95,10 +97,11 @@ std::vector<std::string> lines(const DispatchReport& report) {
     for (const DispatchedJob& handed : report.handed) {
         const JobOutcome& o = handed.outcome;
         const bool is_well = o.is_complete() || (o.milled_complete && report.is_complete());
-        if (!o.to_do.empty() && !is_well) text.push_back("to do for " + handed.piece + ": " + o.to_do);
+        if (!o.to_do.empty() && !is_well)
+            text.push_back("to do for " + handed.piece + ": " + command_line_text(o.to_do));
     }
     text.push_back(summary(report));
-    if (report.is_complete() && !report.next.empty()) text.push_back("Next: " + report.next);
+    if (report.is_complete() && !report.next.empty()) text.push_back("Next: " + command_line_text(report.next));
     return text;
 }
 
@@ -110,7 +113,9 @@ Document document(const DispatchReport& report, const std::string& schema) {
                  {"jobs_wanted", report.wanted},
                  {"all_complete", report.is_complete()},
                  {"jobs", jobs}};
-    if (!report.refused.empty()) json["refused"] = report.refused;
+    if (!report.refused.empty()) {
+        json["refused"] = list_of(report.refused, [](const Sentence& why) { return Json(why.text); });
+    }
     return compose(json);
 }
 

@@ -12,10 +12,10 @@ namespace qchopper {
 
 struct DispatchReport {
     std::vector<DispatchedJob> handed;
-    std::size_t wanted = 0;            // jobs to be handed over; handed has at most as many
-    bool is_simulated = false;         // the cell
-    std::vector<std::string> refused;  // why none was sent (unreachable_jobs), or empty
-    std::string next;                  // the command that comes next, if all ended complete; may be empty
+    std::size_t wanted = 0;         // jobs to be handed over; handed has at most as many
+    bool is_simulated = false;      // the cell
+    std::vector<Sentence> refused;  // why none was sent (unreachable_jobs), or empty
+    Sentence next;                  // what comes next, if all ended complete; may be empty
     // All jobs that are wanted ended complete, now or before.
     bool is_complete() const;
     bool is_cancelled() const;

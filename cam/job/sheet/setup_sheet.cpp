@@ -49,8 +49,8 @@ std::string head(const JobInput& input) {
     }
     if (is_unreachable(input.setup, input.max_unreachable)) {
         html += stop(
-            "The state of this job is \"unreachable\": qchopper dispatch sends it only with "
-            "--accept-unreachable (section 6).");
+            "The state of this job is \"unreachable\": it is sent only if the foam that stays is accepted "
+            "(section 6).");
     }
     return html;
 }

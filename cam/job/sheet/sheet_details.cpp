@@ -127,7 +127,8 @@ std::string alternative_section(const JobInput& input) {
                         is_mapped ? number(other.rest_material_mm3 / 1000, 1) : right("-"),
                         word(size_text(other.block)), right(std::to_string(other.directions))});
     }
-    return section("Other bases", table(rows) + paragraph("qchopper setup --base takes the number of a base."));
+    return section("Other bases",
+                   table(rows) + paragraph("The setup of a piece can be decided by the number of a base."));
 }
 
 std::string margin_section(const StockFit& stock_fit) {

@@ -440,6 +440,7 @@ TEST_P(BadInput, IsToldInOneLineAndLeavesNothingBehind) {
     EXPECT_EQ(document["unchanged"], c.unchanged);
     EXPECT_NE(document["error"], "");
     EXPECT_NE(document["to_do"], "");
+    EXPECT_TRUE(document.contains("remedy"));
     EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
 }
 

@@ -9,9 +9,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -149,7 +151,15 @@ Ended Process::wait(double seconds) {
 }
 
 Ended run(const Arguments& arguments, const RunOptions& options) {
-    return Process(arguments, options).wait();
+    Ended ended = Process(arguments, options).wait();
+    const bool is_document = std::ranges::find(arguments, "--json") != arguments.end();
+    const bool is_error = ended.out.find("qchopper-error-") != std::string::npos;  // it is the command line's own
+    std::smatch option;
+    // An option, as a word of a sentence; the paths of the tests have none.
+    if (is_document && !is_error && std::regex_search(ended.out, option, std::regex(R"([ ;(]--[a-z][a-z-]*)"))) {
+        ADD_FAILURE() << "a document names an option, which a page does not have:" << option.str();
+    }
+    return ended;
 }
 
 std::string address_of(Process& cell) {

@@ -63,6 +63,7 @@ class Process {
     bool ended_ = false;
 };
 
+// Fails where a document other than that of an error names an option.
 Ended run(const Arguments& arguments, const RunOptions& options);
 // Waits until a cell-sim says where it listens: HOST:PORT, or "" and a failed test.
 std::string address_of(Process& cell);

@@ -48,6 +48,31 @@ TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
     EXPECT_NE(shown.out.find("Arm not checked"), std::string::npos) << shown.out;
 }
 
+// Figure by figure, and nothing is decided before.
+TEST_F(SetupCommand, APreviewedPlaneHasTheSetupsThatItHasOnceItIsDecided) {
+    const std::string before = program::bytes_in(folder.path / "p.qch" / "project.json");
+    const json preview = document_of({"segment", "p.qch", "--preview", "2", "--setups"})["preview"];
+    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);
+    ASSERT_EQ(run({"segment", "p.qch", "--accept", "2"}).code, 0);
+    const json decided = document_of({"setup", "p.qch"});
+    EXPECT_EQ(preview["milled_pieces"]["cell"], decided["cell"]);
+    EXPECT_EQ(preview["milled_pieces"]["max_unreachable"], decided["max_unreachable"]);
+    std::size_t found = 0;
+    for (const json& piece : decided["pieces"]) {
+        for (json tried : preview["milled_pieces"]["pieces"]) {
+            if (tried["name"] != piece["name"]) continue;
+            ++found;
+            EXPECT_EQ(tried["fits"], tried["setups"][0]["fits"]) << "the cell has no arm";
+            for (const char* own : {"side", "fits", "areas_mm2"}) EXPECT_EQ(tried.erase(own), 1U) << own;
+            EXPECT_EQ(tried, piece);
+        }
+    }
+    EXPECT_EQ(found, preview["milled_pieces"]["pieces"].size());
+    EXPECT_GE(found, 2U);
+    EXPECT_FALSE(document_of({"segment", "p.qch", "--preview", "1"})["preview"].contains("milled_pieces"));
+    EXPECT_EQ(run({"segment", "p.qch", "--step", "--setups"}).code, exit_use);
+}
+
 TEST_F(SetupCommand, ShowsAProjectThatAnotherProgramIsWriting) {
     const ProjectLock other(folder.path / "p.qch");
     const program::Ended shown = run({"setup", "p.qch"});

@@ -174,8 +174,8 @@ class SizeQuestion(InFolder):
         self.assertEqual(self.run_here("segment", "a.qch", "--step").returncode, 0)
 
     def test_is_told_by_inspect(self):
-        self.assertIn("is --units right?", self.run_here("inspect", "s.ply", "--units", "m").stdout)
-        self.assertNotIn("is --units right?", self.run_here("inspect", "s.ply", "--units", "mm").stdout)
+        self.assertIn("is its unit right?", self.run_here("inspect", "s.ply", "--units", "m").stdout)
+        self.assertNotIn("is its unit right?", self.run_here("inspect", "s.ply", "--units", "mm").stdout)
 
 
 if __name__ == "__main__":

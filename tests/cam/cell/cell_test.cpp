@@ -64,7 +64,7 @@ Refusal refused(const std::string& from, const std::string& to) {
     } catch (const InputError& error) {
         EXPECT_EQ(error.fault, InputFault::config);
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line: " << error.what();
-        return {error.what(), error.to_do};
+        return {error.what(), error.to_do.text};
     }
     ADD_FAILURE() << "taken: " << to;
     return {};
@@ -95,7 +95,7 @@ TEST(Cell, OfVersion1IsRefusedAndToldWhatToWrite) {
             EXPECT_EQ(error.fault, InputFault::config);
             EXPECT_NE(std::string(error.what()).find("version: cell files of version 1"), std::string::npos)
                 << error.what();
-            EXPECT_NE(error.to_do.find("write version = 2"), std::string::npos) << error.to_do;
+            EXPECT_NE(error.to_do.text.find("write version = 2"), std::string::npos) << error.to_do.text;
         }
     }
 }

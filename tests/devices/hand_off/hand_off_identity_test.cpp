@@ -23,7 +23,7 @@ void expect_store_lost(const ScriptedCell& cell, StartOutcome start_outcome) {
     EXPECT_EQ(cell.state.start_outcome, start_outcome);
     EXPECT_TRUE(cell.state.store_is_lost);
     EXPECT_NE(cell.state.why.find("CELL_STORE_LOST"), std::string::npos) << cell.state.why;
-    EXPECT_NE(cell.state.to_do.find("accept-store"), std::string::npos) << cell.state.to_do;
+    EXPECT_NE(cell.state.to_do.text.find("accept its memory"), std::string::npos) << cell.state.to_do.text;
     EXPECT_TRUE(has(cell.events, JournalKind::store_lost));
     EXPECT_EQ(cell.events.back().kind, JournalKind::closed);
     EXPECT_EQ(cell.events.back().start_outcome, start_outcome);
@@ -174,7 +174,7 @@ TEST(Fault, F24_ARestartAroundStartIsUnknownIfTheCellCannotCheckItsStore) {
         }
         cell.run();
         EXPECT_EQ(cell.state.start_outcome, StartOutcome::unknown) << cell.state.why;
-        EXPECT_NE(cell.state.to_do.find("accept-store"), std::string::npos) << cell.state.to_do;
+        EXPECT_NE(cell.state.to_do.text.find("accept its memory"), std::string::npos) << cell.state.to_do.text;
         EXPECT_EQ(cell.count(CellCommand::start), 0);
     }
 }
@@ -235,7 +235,7 @@ TEST(HandOffIdentity, AFileThatWasMilledBeforeIsMilledOnlyWithAgain) {
     EXPECT_EQ(refused.state.start_outcome, StartOutcome::not_started);
     EXPECT_EQ(refused.order(), "CLAIM QUERY QUERY_FILE RELEASE ");
     EXPECT_NE(refused.state.why.find(to_text(other_job)), std::string::npos) << refused.state.why;
-    EXPECT_NE(refused.state.to_do.find("--again"), std::string::npos);
+    EXPECT_EQ(refused.state.to_do.key, "carve_again");
     EXPECT_TRUE(refused.state.milled_before.has_value());
 
     HandOffPlan plan = a_plan();

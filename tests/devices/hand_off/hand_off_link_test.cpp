@@ -168,7 +168,7 @@ TEST(HandOff, AnotherMagicNumberIsAnErrorOfTheProtocolOnlyIfItStays) {
         EXPECT_FALSE(damaged_until(0.5).state.fault.has_value());
         const ScriptedCell foreign = damaged_until(99);
         EXPECT_EQ(foreign.state.fault, DeviceFault::protocol);
-        EXPECT_EQ(foreign.state.to_do.find("register map 1.1") != std::string::npos, fault == BlockFault::version);
+        EXPECT_EQ(foreign.state.to_do.text.find("register map 1.1") != std::string::npos, fault == BlockFault::version);
         EXPECT_LT(foreign.now_s, 3);
         EXPECT_TRUE(foreign.written.empty());
     }

@@ -32,7 +32,7 @@ TEST(HandOffOtherCell, ThatAnswersBeforeStartGetsNoStart) {
             EXPECT_EQ(cell.commands.back().command, last) << "nothing more is sent: " << cell.order();
             EXPECT_NE(cell.state.why.find("another cell answers now"), std::string::npos) << cell.state.why;
             EXPECT_NE(cell.state.why.find(change.word), std::string::npos) << cell.state.why;
-            EXPECT_NE(cell.state.to_do, "");
+            EXPECT_FALSE(cell.state.to_do.empty());
         }
     }
 }

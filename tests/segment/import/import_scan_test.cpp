@@ -89,17 +89,17 @@ TEST(ImportedScan, UnitsAndScaleEnlarge) {
     const TriangleMesh box = shapes::box({1, 1, 1}, {2, 3, 4});
     const ImportedScan inches = imported_from(box, {mm_per(unit_named("in")), 1});
     EXPECT_NEAR(volume_mm3(inches.mesh), 6 * 25.4 * 25.4 * 25.4, 1e-6);
-    EXPECT_FALSE(has_warning(inches.report, "--scale"));
+    EXPECT_FALSE(has_warning(inches.report, "is scaled by"));
     const ImportedScan twice = imported_from(box, {mm_per(unit_named("cm")), 2});
     EXPECT_NEAR(volume_mm3(twice.mesh), 6 * 8000, 1e-6);
-    EXPECT_TRUE(has_warning(twice.report, "--scale"));
+    EXPECT_TRUE(has_warning(twice.report, "is scaled by"));
     EXPECT_EQ(twice.centre, (Vec3{30, 40, 50}));
 }
 
 TEST(ImportedScan, WarnsOfAnUnlikelySize) {
-    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1})).report, "--units"));
-    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1e5, 1}).report, "--units"));
-    EXPECT_FALSE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1000, 1}).report, "--units"));
+    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1})).report, "is its unit right"));
+    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1e5, 1}).report, "is its unit right"));
+    EXPECT_FALSE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1000, 1}).report, "is its unit right"));
 }
 
 TEST(ImportedScan, UnitsHaveNames) {
@@ -232,7 +232,7 @@ TEST(ImportedScan, AsksForAMissingUnit) {
         ADD_FAILURE();
     } catch (const InputError& error) {
         EXPECT_EQ(error.fault, InputFault::use);
-        EXPECT_NE(error.to_do.find("--units"), std::string::npos);
+        EXPECT_EQ(error.to_do.key, "give_unit");
     }
 }
 

@@ -38,7 +38,7 @@ class Units : public testing::Test {
             size(bytes, mm_per_unit);
         } catch (const InputError& error) {
             EXPECT_EQ(error.fault, InputFault::use) << error.what();
-            return error.what() + std::string(". To do: ") + error.to_do;
+            return error.what() + std::string(". To do: ") + error.to_do.text;
         }
         ADD_FAILURE() << "nothing was refused";
         return {};
@@ -55,8 +55,9 @@ class Units : public testing::Test {
 TEST_F(Units, AScanWithoutOneNeedsOne) {
     EXPECT_EQ(size(ply, 10), (Vec3{10, 20, 30}));
     const std::string what = refused(ply, {});
-    EXPECT_NE(what.find("PLY, binary little-endian, which has no unit. To do: pass --units mm, cm, m or in"),
-              std::string::npos)
+    EXPECT_NE(
+        what.find("PLY, binary little-endian, which has no unit. To do: give the unit of the scan: mm, cm, m or in"),
+        std::string::npos)
         << what;
     EXPECT_NE(refused(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {}).find("OBJ, which has no unit"),
               std::string::npos);
@@ -74,9 +75,9 @@ TEST_F(Units, TheSameAsThatOfTheFileIsAccepted) {
 }
 
 TEST_F(Units, AnotherThanThatOfTheFileIsRefused) {
-    EXPECT_NE(refused(gltf, 1).find("has the unit m, but --units is mm"), std::string::npos);
-    EXPECT_NE(refused(inches, 1000).find("has the unit in, but --units is m"), std::string::npos);
-    EXPECT_NE(refused(no_word, 25.4).find("has the unit mm, but --units is in"), std::string::npos);
+    EXPECT_NE(refused(gltf, 1).find("has the unit m, but it is to be read in mm"), std::string::npos);
+    EXPECT_NE(refused(inches, 1000).find("has the unit in, but it is to be read in m"), std::string::npos);
+    EXPECT_NE(refused(no_word, 25.4).find("has the unit mm, but it is to be read in in"), std::string::npos);
 }
 
 // A project identifies its scan by this hash, so it must depend on every file of the scan.

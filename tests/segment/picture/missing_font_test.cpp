@@ -21,7 +21,7 @@ TEST(MissingFont, IsAnErrorThatNamesThePackage) {
         } catch (const InputError& error) {
             EXPECT_EQ(error.fault, InputFault::missing);
             EXPECT_EQ(std::string(error.what()), "the font of pictures, " QCHOPPER_HERSHEY_FONT ", is missing");
-            EXPECT_NE(error.to_do.find("hershey-fonts-data"), std::string::npos);
+            EXPECT_NE(error.to_do.text.find("hershey-fonts-data"), std::string::npos);
         }
     }
 }

@@ -213,6 +213,25 @@ TEST(Simplify, FewerFacesThanTheCapsHaveAreReported) {
     EXPECT_EQ(caps(half), caps(halves->above.mesh));
 }
 
+TEST(Simplify, QuicklyCapsStayAndTheQueueIsNotTaken) {
+    const std::optional<CutHalves> halves = cut(shapes::ball({0, 0, 0}, 50, 40), {{0, 0, 1}, 0.7}, 1);
+    ASSERT_TRUE(halves);
+    const TriangleMesh& piece = halves->above.mesh;
+    TriangleMesh slowly = piece;
+    ASSERT_TRUE(simplify(slowly, at_most(20)).is_by_queue) << "else both ways would be the same";
+    SimplifyOptions options = at_most(20);
+    options.is_quick = true;
+    TriangleMesh half = piece;
+    const SimplifyReport report = simplify(half, options);
+    EXPECT_FALSE(report.is_by_queue);
+    EXPECT_TRUE(report.has_too_many_faces);
+    EXPECT_LT(report.faces_after, report.faces_before / 2);
+    EXPECT_EQ(caps(half), caps(piece));
+    EXPECT_EQ(report.from_piece, farthest_sample(piece, half));
+    EXPECT_EQ(report.from_result, farthest_sample(half, piece));
+    expect_sound(half, piece, "quickly");
+}
+
 TEST(Simplify, TwiceToACountIsOnce) {
     TriangleMesh mesh = some_bone();
     simplify(mesh, at_most(3000));

@@ -84,14 +84,15 @@ TEST(SheetDetails, OfACellWithoutAMachine) {
 
 TEST(SetupSheet, SaysWhatToDoInACellWithARobot) {
     const std::string sheet = setup_sheet(tilting_job(), some_time_s);
-    expect_words(sheet, {"</span> hidden, <span", "Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
-                         "Saw it down to 58 x 56 x 44 mm; a saw cut takes 3 mm",
-                         "Offcuts that are left: 339 x 300 x 60, 58 x 241 x 60, 58 x 56 x 13 mm.",
-                         "A turn by 1 degree moves the corners of the block by 0.7 mm.", "12.0 mm above the table",
-                         "In the cell it is at (0.0, 0.0, 112.0).", "Clamps must stay within the lowest 12.0 mm",
-                         "The state of this job is &quot;unreachable&quot;", "only with --accept-unreachable",
-                         "Saw it off in the plane of its base, z = 0, 12.0 mm above the table",
-                         "12.3 cm3 of foam stay there, up to 6.7 mm deep: take it off by hand."});
+    expect_words(sheet,
+                 {"</span> hidden, <span", "Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
+                  "Saw it down to 58 x 56 x 44 mm; a saw cut takes 3 mm",
+                  "Offcuts that are left: 339 x 300 x 60, 58 x 241 x 60, 58 x 56 x 13 mm.",
+                  "A turn by 1 degree moves the corners of the block by 0.7 mm.", "12.0 mm above the table",
+                  "In the cell it is at (0.0, 0.0, 112.0).", "Clamps must stay within the lowest 12.0 mm",
+                  "The state of this job is &quot;unreachable&quot;", "sent only if the foam that stays is accepted",
+                  "Saw it off in the plane of its base, z = 0, 12.0 mm above the table",
+                  "12.3 cm3 of foam stay there, up to 6.7 mm deep: take it off by hand."});
     EXPECT_EQ(row(sheet, "P3"),
               "P3 | corner of the block's top at -x, +y | -29.0 | 28.0 | 32.0 | -29.0 | 28.0 | 144.0");
     EXPECT_EQ(fault_of(sheet), "");

@@ -1,6 +1,6 @@
 // Text and JSON from a value.
 
-#include "app/report/machine_reachability_report.h"
+#include "app/report/cell/machine_reachability_report.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,0 +1,38 @@
+// O(log(answers kept)) a request.
+
+#include "app/console/http/kept_answers.h"
+
+namespace qchopper {
+
+HttpAnswer KeptAnswers::answer(const std::string& id, const Sha256& request, const std::function<HttpAnswer()>& make,
+                               const HttpAnswer& conflict) {
+    {
+        std::unique_lock lock(changing_);
+        auto found = kept_.find(id);
+        if (found != kept_.end()) {
+            if (found->second.request != request) return conflict;
+            made_.wait(lock, [&] {
+                found = kept_.find(id);
+                return found == kept_.end() || found->second.is_made;
+            });
+            return found == kept_.end() ? conflict : found->second.answer;
+        }
+        kept_.emplace(id, Kept{request});
+    }
+    HttpAnswer made = make();
+    {
+        const std::lock_guard lock(changing_);
+        Kept& kept = kept_.at(id);
+        kept.answer = made;
+        kept.is_made = true;
+        order_.push_back(id);
+        if (order_.size() > most_) {
+            kept_.erase(order_.front());
+            order_.pop_front();
+        }
+    }
+    made_.notify_all();
+    return made;
+}
+
+}  // namespace qchopper

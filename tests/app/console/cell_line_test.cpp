@@ -1,0 +1,87 @@
+#include "app/console/cells/cell_line.h"
+
+#include <gtest/gtest.h>
+
+#include "base/files/temporary_folder.h"
+#include "sim/cell/cell_sim.h"
+
+namespace qchopper {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+bool comes_true(const auto& condition) {
+    const Clock::time_point until = Clock::now() + 20s;
+    while (!condition() && Clock::now() < until) std::this_thread::sleep_for(20ms);
+    return condition();
+}
+
+struct Line : ::testing::Test {
+    Line() { ::setenv("XDG_STATE_HOME", state.path().c_str(), 1); }
+
+    TemporaryFolder state{"state"};
+    std::atomic<int> changes = 0;
+
+    std::unique_ptr<CellLine> line(std::uint16_t port) {
+        return std::make_unique<CellLine>("id", "127.0.0.1:" + std::to_string(port), "a cell", std::nullopt,
+                                          [this](const CellView&) { ++changes; });
+    }
+};
+
+TEST_F(Line, ShowsWhatTheCellSaysOfItself) {
+    CellSim sim(CellSimOptions{});
+    sim.start();
+    const auto l = line(sim.port());
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::connected; }));
+    const CellView view = l->view();
+    EXPECT_EQ(view.kind, CellKind::simulated);
+    EXPECT_EQ(view.state, sim.status().state);
+    EXPECT_FALSE(view.job);
+    EXPECT_LT(*view.read_ms_ago, 20'000);
+    EXPECT_GT(changes, 0);
+}
+
+TEST_F(Line, ACellThatIsNotThereIsNoErrorAndIsFoundWhenItComes) {
+    CellSimOptions options;
+    {
+        CellSim sim(options);
+        sim.start();
+        options.port = sim.port();
+    }
+    const auto l = line(options.port);
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(l->view().link, CellLinkState::never);
+    EXPECT_EQ(l->hold().status, 502U);
+    CellSim sim(options);
+    sim.start();
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::connected; }));
+    sim.stop();
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::lost; }));
+    EXPECT_EQ(l->view().kind, CellKind::simulated);  // what was read last, with its age
+}
+
+TEST_F(Line, HoldIsAnsweredByTheCell) {
+    CellSim sim(CellSimOptions{});
+    sim.start();
+    const auto l = line(sim.port());
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::connected; }));
+    const WorkerAnswer answer = l->hold();  // nothing runs: the cell refuses it, and that is an answer
+    EXPECT_EQ(answer.status, 200U);
+    EXPECT_NE(answer.document.find("\"action\": \"hold\""), std::string::npos) << answer.document;
+}
+
+TEST_F(Line, ACommandForAnotherJobThanTheOneInTheCellIsNotSent) {
+    CellSim sim(CellSimOptions{});
+    sim.start();
+    const auto l = line(sim.port());
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::connected; }));
+    const Status before = sim.status();
+    const WorkerAnswer answer = l->command("stop", "7f0c9a1e-5c1f-4d0a-9c2e-0123456789ab");
+    EXPECT_EQ(answer.status, 409U);
+    EXPECT_EQ(sim.status().ack_seq, before.ack_seq);
+    EXPECT_EQ(l->command("stop", "").status, 200U);
+}
+
+}  // namespace
+}  // namespace qchopper
