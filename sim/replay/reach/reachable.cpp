@@ -67,6 +67,15 @@ class HolderMaps {
  public:
     explicit HolderMaps(const ReplayScene& scene) : scene_(scene) {}
     const ReplayScene& scene() const { return scene_; }
+    // The highest point of the target along the orientation.
+    float top(std::size_t orientation) {
+        const auto [found, is_new] = tops_.try_emplace(orientation);
+        if (is_new) {
+            const SurfaceMap map = target_surface(scene_, orientation, holder_cell, 0);
+            found->second = *std::max_element(map.height.begin(), map.height.end());
+        }
+        return found->second;
+    }
     const SurfaceMap& of(std::size_t orientation, double radius) {
         const auto [found, is_new] = known_.try_emplace({orientation, radius});
         if (is_new) {
@@ -80,6 +89,7 @@ class HolderMaps {
 
  private:
     const ReplayScene& scene_;
+    std::map<std::size_t, float> tops_;
     std::map<std::pair<std::size_t, double>, SurfaceMap> known_;
 };
 
@@ -96,14 +106,12 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTo
 // are not asked for.
 void clear_holder(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
     const std::vector<BodyDisc> discs = discs_of(tool, *holders.scene().cell->machine);
-    float lowest = -no_surface;
-    float highest = no_surface;
+    float lowest = -no_surface;  // before tips are raised
     for (const float tip : tips.height) {
-        if (tip == no_surface) continue;
-        lowest = std::min(lowest, tip);
-        highest = std::max(highest, tip);
+        if (tip != no_surface) lowest = std::min(lowest, tip);
     }
-    const double depth = highest - lowest;  // before tips are raised
+    // Below all of the target, also where no tip is asked for: holders are wider than what is asked about.
+    const double depth = holders.top(orientation) - lowest;
     std::vector<std::int32_t> columns(static_cast<std::size_t>(tips.columns));
     for (const auto& [radius, height] : discs) {
         if (depth < height) continue;

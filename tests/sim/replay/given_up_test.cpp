@@ -202,6 +202,30 @@ TEST(FirstReach, IsTheFirstClosingThatComesToAPoint) {
     EXPECT_GE(count.size(), 4U) << "several tools along both directions are the first for some points";
 }
 
+// A holder meets a wall also where nothing is asked about the wall.
+TEST(FirstReach, OfAPointAloneIsThatOfThePointAmongAll) {
+    const Cell cell =
+        with_short_tools(read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml"));
+    const TriangleMesh mesh =
+        shapes::joined({shapes::box({0, 0, 0}, {200, 60, 5}), shapes::box({-12, 0, 0}, {0, 60, 400})});
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.orientations = {{{0, 0, 1}, 0, {}}};
+    scene.target = &mesh;
+    std::vector<Vec3> points;
+    for (double x = 2; x < 200; x += 6) points.push_back({x, 30, 5});
+    const auto tools = [&](std::size_t) { return allowed_tools(scene); };
+    const auto among_all = first_reach(scene, points, tools, 0.5, 0.6, {});
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto alone = first_reach(scene, {points[i]}, tools, 0.5, 0.6, {}).front();
+        EXPECT_EQ(alone.has_value(), among_all[i].has_value()) << points[i].x;
+        reached += alone ? 1 : 0;
+    }
+    EXPECT_GT(reached, 0U);
+    EXPECT_LT(reached, points.size());
+}
+
 TEST(Closings, TheFinestIsEnoughWhereItsHolderIsClear) {
     expect_few_are_enough(60, 1);
 }
