@@ -15,6 +15,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/console/console.h"
+#include "app/console/console_folder.h"
 #include "app/console/http/http_server.h"
 #include "app/console/random_digits.h"
 #include "app/console/worker/strokes.h"
@@ -125,7 +126,8 @@ int run(const ServeArguments& arguments, Terminal& terminal) {
     options.presets = preset_choices();
     const TemporaryFolder scratch("qchopper-console-");
     options.scratch = scratch.path();
-    options.queue = state_folder() / "console";
+    // Of this folder alone: another server shows and follows its own jobs.
+    options.queue = state_folder() / "console" / id_of_name(options.folder.string());
     options.to = arguments.to;
     options.drop = arguments.drop;
     std::optional<SimulatedCell> simulator;
