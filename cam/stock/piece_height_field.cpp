@@ -2,6 +2,7 @@
 // is cut into the strips of the rows (I. E. Sutherland and G. W. Hodgman, "Reentrant polygon clipping", 1974); the
 // corners of its parts in cells are then the corners of a strip and where the sides of a strip cross the lines between
 // columns. O(triangles + cells covered); several threads raise a cell to the highest of them, whatever their order.
+// The highest point of a solid over any place lies on a triangle that does not face down: the others are left out.
 //
 // cells_under.h finds centres only: here each cell that a triangle touches counts, with the highest point in it.
 
@@ -19,6 +20,7 @@
 #include "base/parallel.h"
 #include "cam/stock/cl_surface.h"
 #include "segment/mesh/footprint.h"
+#include "segment/mesh/measure.h"
 #include "segment/raster/shared_value.h"
 
 namespace qchopper {
@@ -122,6 +124,7 @@ void raise_to_mesh(HeightField& map, const TriangleMesh& mesh) {
     parallel_ranges(0, mesh.triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
             StripPart triangle;
+            if (rotate(map.piece_in_field, area_vector(mesh, t)).z < 0) continue;
             for (const auto index : mesh.triangles[t]) {
                 const Vec3 p = apply(map.piece_in_field, mesh.points[index]);
                 triangle.add({p.x / map.cell, p.y / map.cell, p.z});

@@ -108,6 +108,18 @@ double ToolpathLinker::limit_at(Vec3 p) const {
     return is_raised ? std::max(limit, of_tool) : of_tool;
 }
 
+// At least limit_at(). Between the centres of four cells the tool stands nowhere higher than over the highest of them:
+// it is lowest where it is farthest from what raises it, and no point that a cell counts as lies between two centres.
+double ToolpathLinker::highest_limit_around(Vec3 p) const {
+    const HeightField& cl = *space_->cl_limit;
+    if (!space_->is_limit_between) return static_cast<double>(cl.height_under(p.x, p.y));
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const std::size_t cell : BilinearCell(cl, p.x, p.y).cells) {
+        highest = std::max(highest, static_cast<double>(cl.height[cell]));
+    }
+    return highest;
+}
+
 // How far apart a way is held against the limit. An edge that is known between the centres of cells may lie between two
 // places as well: then the tool is at most so far in the wall.
 double ToolpathLinker::limit_spacing() const {
@@ -139,9 +151,12 @@ ToolpathLinker::Way ToolpathLinker::way_to(Vec3 to) const {
     const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * space_->stock.cell / fine));
     for (std::size_t i = 0; i <= samples; ++i) {
         const Vec3 p = at_ + (static_cast<double>(i) / static_cast<double>(samples)) * line;
-        const double limit = limit_at(p);
-        way.limit = std::max(way.limit, limit);
-        way.over_limit = std::max(way.over_limit, limit - p.z);
+        const double most = highest_limit_around(p);
+        if (most > way.limit || most - p.z > way.over_limit) {
+            const double limit = limit_at(p);
+            way.limit = std::max(way.limit, limit);
+            way.over_limit = std::max(way.over_limit, limit - p.z);
+        }
         if (i % every != 0 && i != samples) continue;
         const double foam = stock_near(p, outer_);
         const double holder = holder_at(p.x, p.y);

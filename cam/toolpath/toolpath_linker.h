@@ -96,6 +96,7 @@ class ToolpathLinker {
     double stock_near(Vec3 at, double radius) const;
     double over_flute(Vec3 at) const;
     double limit_at(Vec3 p) const;
+    double highest_limit_around(Vec3 p) const;
     double limit_spacing() const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
