@@ -21,6 +21,13 @@ void fields(V& v, T& found) {
     v("places", found.places);
 }
 
+template <class V, Of<InspectedSolid> T>
+void fields(V& v, T& solid) {
+    v("volume", solid.volume);
+    v("faces", solid.faces);
+    v("centre", solid.centre);
+}
+
 template <class V, Of<FaultPlaces> T>
 void fields(V& v, T& places) {
     v("kind", places.kind);
@@ -147,6 +154,8 @@ Document document(const InspectedFile& file) {
                     {"shells", i.shells},
                     {"cavities", i.cavities},
                     {"inside_out", i.inside_out},
+                    {"solid_count", i.solid_count},
+                    {"largest_solids", json_of(i.solids)},
                     {"fragments", {{"count", i.fragments}, {"area_share", i.fragment_area_share}}},
                     {"open_components", {{"count", i.open_components}, {"area_share", i.open_component_area_share}}},
                     {"open_edges", i.open_edges},

@@ -108,17 +108,14 @@ const char* fits_word(const PieceReport& piece) {
 Json piece_json(const PieceReport& piece, const PreparedProject& of) {
     const Cell& cell = of.cell;
     const Setup& s = piece.piece_setup.setup();
-    Json margins;
-    for (const Margin& m : piece.piece_setup.stock_fit.margins) margins[m.name] = m.mm;
     Json json{{"name", piece.name},
               {"faces", piece.faces},
               {"volume_mm3", piece.volume_mm3},
               {"box_mm", json_of(s.box.size())}};
     add_setup(json, s, cell);
-    json.update({{"piece_state", state_word(piece, of.max_unreachable)},
-                 {"fits", piece.piece_setup.fits()},
-                 {"margins_mm", margins},
-                 {"work_envelope", json_of(piece.piece_setup.machine_reachability)},
+    json.update({{"piece_state", state_word(piece, of.max_unreachable)}, {"fits", piece.piece_setup.fits()}});
+    add_margins(json, piece.piece_setup.stock_fit);
+    json.update({{"work_envelope", json_of(piece.piece_setup.machine_reachability)},
                  {"out_of_reach", list_of(piece.advice, advice_json)},
                  {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
                  {"program", program_json(piece)}});

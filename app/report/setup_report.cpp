@@ -137,8 +137,10 @@ std::string program_words(const PieceReport& job) {
 Json setup_json(const Setup& setup, const Cell& cell) {
     Json json;
     add_setup(json, setup, cell);
-    json.update({{"fits", check_stock_fit(setup, with_tools(cell, setup.tools)).fits()},
-                 {"sawn", setup.block.is_sawn},
+    const StockFit fit = check_stock_fit(setup, with_tools(cell, setup.tools));
+    json.update({{"fits", fit.fits()}});
+    add_margins(json, fit);
+    json.update({{"sawn", setup.block.is_sawn},
                  {"offcuts_mm", json_of(setup.block.offcuts)},
                  {"undercut_by_count", setup.undercut_by_count},
                  {"tools", setup.tools.empty() ? Json() : Json(setup.tools)}});
@@ -188,6 +190,12 @@ void add_setup(nlohmann::ordered_json& json, const Setup& setup, const Cell& cel
                  {"undercut", setup.undercut},
                  {"workholding", workholding_json(setup)},
                  {"reach", json_of(setup.access)}});
+}
+
+void add_margins(nlohmann::ordered_json& json, const StockFit& fit) {
+    Json margins;
+    for (const Margin& m : fit.margins) margins[m.name] = m.mm;
+    json["margins_mm"] = std::move(margins);
 }
 
 std::string base_word(const Setup& setup) {

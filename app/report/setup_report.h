@@ -28,6 +28,10 @@ std::string arm_note(const Cell& cell);
 // What setup and prepare say of a setup, with the keys of the manifest; the tool axes in piece coordinates.
 void add_setup(nlohmann::ordered_json& json, const Setup& setup, const Cell& cell);
 
+// The key margins_mm: how much room is left for each condition of the block in the cell, by its name; negative: so much
+// is missing.
+void add_margins(nlohmann::ordered_json& json, const StockFit& fit);
+
 std::vector<std::string> lines(const SetupAnswer& answer);
 // The document qchopper-setup-2 (tests/app/cli/setup_test.cpp).
 Document document(const SetupAnswer& answer);

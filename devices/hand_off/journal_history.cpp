@@ -45,14 +45,19 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
     if (event.kind == granted) history.grant = event.grant;
 }
 
-void note_of_job(JournalJob& job, const JournalEvent& event, std::uint32_t boots) {
+void note_of_job(JournalJob& job, const JournalRow& row, std::uint32_t boots) {
+    const JournalEvent& event = row.event;
     if (event.kind == command && event.command == CellCommand::store) job.is_stored = true;
     if (event.kind == start_intent) job.start_boots = boots;
     if (event.kind == start_intent || event.kind == start_void) job.start_sent = event.kind == start_intent;
-    if (event.kind == started) job.is_started = true;
+    if (event.kind == started) {
+        job.is_started = true;
+        job.started_ms = row.unix_ms;
+    }
     if (event.kind == result) {
         job.has_ended = is_over(event.job_state);
         job.job_result = event.job_result;
+        job.ended_ms = job.has_ended ? row.unix_ms : 0;
     }
     if (event.kind == resumed) job.start_outcome.reset();
     if (event.kind == closed) job.start_outcome = event.start_outcome;
@@ -104,9 +109,10 @@ JournalHistory history_of(std::span<const JournalRow> rows) {
             job.job_id = event.job_id;
             job.file_sha256 = event.file_sha256;
             job.ticket = event.ticket;
+            job.created_ms = row.unix_ms;
             history.jobs.push_back(std::move(job));
         } else if (JournalJob* job = job_of(history, event.job_id)) {
-            note_of_job(*job, event, history.store ? history.store->boot_count : 0);
+            note_of_job(*job, row, history.store ? history.store->boot_count : 0);
         }
     }
     return history;

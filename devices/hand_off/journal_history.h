@@ -22,6 +22,9 @@ struct JournalJob : JobPast {
     Uuid job_id{};
     Sha256 file_sha256{};
     std::vector<std::uint16_t> ticket;  // the block TICKET
+    std::uint64_t created_ms = 0;       // by the clock of the PC, as the following
+    std::uint64_t started_ms = 0;       // when the cell showed it; 0: it did not
+    std::uint64_t ended_ms = 0;         // 0: it has not ended in the cell
     bool has_ended = false;             // ended or aborted in the cell
     JobResult job_result = JobResult::none;
     std::optional<StartOutcome> start_outcome;  // of the last hand-off that came to its end

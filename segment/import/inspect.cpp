@@ -23,6 +23,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t max_places = 10;
+constexpr std::size_t max_solids = 100;
 constexpr double places_apart = 0.01;  // of the diagonal
 
 // One inspection of one mesh.
@@ -191,6 +192,7 @@ class Inspecting {
             of_solid[outer] += shells_.volume[s];
             area_of_solid[outer] += area_[s];
         }
+        note_solids(is_solid, of_solid);
         double area = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!is_solid[s] || !(of_solid[s] < fragment_share * whole)) continue;
@@ -204,6 +206,21 @@ class Inspecting {
         add_shell_places("cavities", cavities);
         add_shell_places("inside_out", inside_out);
         add_shell_places("fragments", fragments);
+    }
+
+    void note_solids(const std::vector<bool>& is_solid, const std::vector<double>& volume) {
+        std::vector<std::size_t> solids;
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            if (is_solid[s]) solids.push_back(s);
+        }
+        std::ranges::stable_sort(solids, [&](std::size_t a, std::size_t b) { return volume[a] > volume[b]; });
+        result_.solid_count = solids.size();
+        solids.resize(std::min(solids.size(), max_solids));
+        std::vector<std::size_t> faces(shells_.count());
+        for (const std::uint32_t shell : shells_.shell_of) ++faces[shell];
+        for (const std::size_t s : solids) {
+            result_.solids.push_back({volume[s], faces[s], 0.5 * (shells_.box[s].min + shells_.box[s].max)});
+        }
     }
 
     // The area of a hole is that of its loop projected along its mean normal: no fill is smaller.

@@ -26,6 +26,13 @@ struct BorderLoop {
     double length = 0;
 };
 
+// A closed solid, without the cavities in it.
+struct InspectedSolid {
+    double volume = 0;
+    std::size_t faces = 0;  // of its outer shell
+    Vec3 centre;            // of its box
+};
+
 // The result of a search for self-intersections (self_intersections.h).
 struct SelfIntersected {
     std::size_t pairs = 0;     // of triangles
@@ -51,11 +58,13 @@ struct Inspection {
     std::size_t repeated = 0;      // triangles with the corners of an earlier one
     Box box;                       // of the points in use
     std::size_t shells = 0;
-    std::size_t cavities = 0;         // closed shells with negative volume inside another shell
-    std::size_t inside_out = 0;       // closed shells with negative volume and nothing around them
-    std::size_t fragments = 0;        // closed solids with less than 1/100,000 of the volume: too small to be pieces
-    double fragment_area_share = 0;   // of the surface
-    std::size_t open_components = 0;  // open shells with holes larger than 80 % of their area: they enclose nothing
+    std::size_t cavities = 0;    // closed shells with negative volume inside another shell
+    std::size_t inside_out = 0;  // closed shells with negative volume and nothing around them
+    std::size_t solid_count = 0;
+    std::vector<InspectedSolid> solids;  // at most 100, the largest first
+    std::size_t fragments = 0;           // closed solids with less than 1/100,000 of the volume: too small to be pieces
+    double fragment_area_share = 0;      // of the surface
+    std::size_t open_components = 0;     // open shells with holes larger than 80 % of their area: they enclose nothing
     double open_component_area_share = 0;  // of the surface
     std::size_t open_edges = 0;            // edges of one triangle
     std::size_t inconsistent = 0;          // edges along which both triangles run the same way

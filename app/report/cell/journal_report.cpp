@@ -10,9 +10,39 @@
 #include "base/text.h"
 #include "base/uuid.h"
 #include "devices/hand_off/journal_history.h"
+#include "devices/wire/codec.h"
 
 namespace qchopper {
 namespace {
+
+// A job in words for programs.
+struct JournalJobReport {
+    JournalJob job;
+    WireTicket ticket;
+
+    std::string state() const {
+        if (job.has_ended) return "ended";
+        if (job.is_settled || job.start_outcome == StartOutcome::unknown) return "unknown";
+        return job.is_open() ? "open" : "not_started";
+    }
+};
+
+template <class V, Of<JournalJobReport> T>
+void fields(V& v, T& report) {
+    const JournalJob& job = report.job;
+    const auto time = [](std::uint64_t ms) { return ms == 0 ? std::optional<std::uint64_t>() : ms; };
+    v.written("job_id", [&] { return to_text(job.job_id); });
+    v.written("sha256", [&] { return to_hex(job.file_sha256); });
+    v.written("file", [&] { return printable(report.ticket.file_name); });
+    v.written("part", [&] { return report.ticket.part; });
+    v.written("parts", [&] { return report.ticket.parts; });
+    v.written("created_ms", [&] { return job.created_ms; });
+    v.written("started_ms", [&] { return time(job.started_ms); });
+    v.written("ended_ms", [&] { return time(job.ended_ms); });
+    v.written("state", [&] { return report.state(); });
+    v.written("result",
+              [&] { return job.has_ended ? std::optional<std::string>(name(job.job_result)) : std::nullopt; });
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -30,6 +60,14 @@ std::string verdict_line(const JournalReport& report) {
     return "the chain is whole: " + std::to_string(report.content.rows.size()) + " rows, " +
            std::to_string(history_of(report.content.rows).jobs.size()) + " jobs, " + std::to_string(open_jobs(report)) +
            " of them open; last hash " + report.content.hash.substr(0, 16);
+}
+
+std::vector<JournalJobReport> jobs_of(const JournalReport& report) {
+    std::vector<JournalJobReport> jobs;
+    for (const JournalJob& job : history_of(report.content.rows).jobs) {
+        jobs.push_back({job, decode<WireTicket>(job.ticket).value});
+    }
+    return jobs;
 }
 
 Json row_json(const JournalRow& row) {
@@ -72,6 +110,8 @@ Document document(const std::vector<JournalReport>& reports) {
                     {"hash", report.content.hash},
                     {"row_count", report.content.rows.size()},
                     {"open_jobs", open_jobs(report)}};
+        json_values::JsonWriter writer(one);
+        writer("jobs", jobs_of(report));
         if (report.shows) {
             one["rows"] = Json::array();
             for (const JournalRow& row : report.content.rows) one["rows"].push_back(row_json(row));

@@ -112,6 +112,13 @@ TEST_F(CellCommands, AKilledDispatchIsTakenUpAndTheJournalTellsIt) {
     EXPECT_EQ(journals["schema"], "qchopper-journal-1");
     ASSERT_EQ(journals["journals"].size(), 1U);
     EXPECT_EQ(journals["journals"][0]["open_jobs"], 0);
+    const Json& carved = journals["journals"][0]["jobs"];
+    ASSERT_FALSE(carved.empty());
+    EXPECT_EQ(carved[0]["state"], "ended");
+    EXPECT_EQ(carved[0]["result"], "stopped");
+    EXPECT_EQ(carved[0]["sha256"].get<std::string>().size(), 64U);
+    EXPECT_LE(carved[0]["created_ms"], carved[0]["started_ms"]);
+    EXPECT_LE(carved[0]["started_ms"], carved[0]["ended_ms"]);
     std::string kinds;
     for (const Json& row : journals["journals"][0]["rows"]) kinds += row["kind"].get<std::string>() + " ";
     EXPECT_TRUE(has(kinds, "START_INTENT STARTED ")) << kinds;

@@ -43,6 +43,12 @@ TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
         EXPECT_GE(piece["setups"].size(), 1U);
         EXPECT_EQ(piece["setups"][0]["reach"]["method"], "mapped");
         EXPECT_EQ(piece["setups"][0]["reach"]["orientations"][0]["tilt_deg"], 0.0) << "the first one is straight up";
+        for (const json& setup : piece["setups"]) {
+            ASSERT_EQ(setup["margins_mm"].size(), 11U);
+            bool is_in = true;
+            for (const json& margin : setup["margins_mm"]) is_in = is_in && margin >= 0;
+            EXPECT_EQ(setup["fits"], is_in) << setup;
+        }
     }
     const program::Ended shown = run({"setup", "p.qch"});
     EXPECT_NE(shown.out.find("Arm not checked"), std::string::npos) << shown.out;

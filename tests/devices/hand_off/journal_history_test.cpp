@@ -191,6 +191,25 @@ TEST(Fault, F24_TheNumberOfTheLastClaimIsKeptUntilAnotherMemoryIsAccepted) {
     EXPECT_EQ(rows.history().grant, 0U);
 }
 
+TEST(JournalHistory, AJobHasTheTimesOfItsRows) {
+    Rows rows;
+    const auto at = [&](Is kind, std::uint64_t ms) -> JournalEvent& {
+        rows.add(kind);
+        rows.rows.back().unix_ms = ms;
+        return rows.rows.back().event;
+    };
+    at(Is::created, 1000);
+    EXPECT_EQ(rows.history().jobs[0].created_ms, 1000U);
+    EXPECT_EQ(rows.history().jobs[0].started_ms, 0U);
+    at(Is::started, 2000);
+    at(Is::progress, 2500);
+    at(Is::result, 3000).job_state = JobState::running;
+    EXPECT_EQ(rows.history().jobs[0].started_ms, 2000U);
+    EXPECT_EQ(rows.history().jobs[0].ended_ms, 0U) << "it runs";
+    at(Is::result, 4000).job_state = JobState::ended;
+    EXPECT_EQ(rows.history().jobs[0].ended_ms, 4000U);
+}
+
 TEST(JournalHistory, APartWaitsForTheCompleteEndOfThePartBefore) {
     WireTicket ticket;
     ticket.project_id = {3};

@@ -135,6 +135,30 @@ TEST(Inspect, CountsFragmentsWithTheirCavities) {
     const double area = 24 + 54 + 6 * 2.7 * 2.7;
     EXPECT_NEAR(found.fragment_area_share, (area - 0) / (60'000 + 24 + 54 + 54 + 6 * 2.7 * 2.7), 1e-12);
     EXPECT_EQ(judge(found).verdict, Verdict::ready);
+    ASSERT_EQ(found.solids.size(), 4U);
+    EXPECT_EQ(found.solid_count, 4U);
+    EXPECT_NEAR(found.solids[0].volume, 1e6, 1e-6);
+    EXPECT_NEAR(found.solids[1].volume, 27, 1e-9);
+    EXPECT_NEAR(found.solids[2].volume, 8, 1e-9);
+    EXPECT_NEAR(found.solids[3].volume, 27 - 2.7 * 2.7 * 2.7, 1e-9) << "without its cavity";
+    EXPECT_EQ(found.solids[0].centre, (Vec3{50, 50, 50}));
+    EXPECT_EQ(found.solids[0].faces, 12U);
+}
+
+TEST(Inspect, ListsTheLargestHundredSolidsAndCountsAll) {
+    std::vector<TriangleMesh> boxes;
+    for (int i = 0; i < 103; ++i) {
+        const double side = 1 + 0.1 * ((i * 37) % 103);
+        boxes.push_back(shapes::box({20.0 * i, 0, 0}, {20.0 * i + side, side, side}));
+    }
+    const Inspection found = inspect(raw(shapes::joined(boxes)));
+    EXPECT_EQ(found.solid_count, 103U);
+    ASSERT_EQ(found.solids.size(), 100U);
+    for (std::size_t i = 0; i < 100; ++i) {
+        const double side = 1 + 0.1 * static_cast<double>(102 - i);
+        EXPECT_NEAR(found.solids[i].volume, side * side * side, 1e-6);
+    }
+    EXPECT_EQ(inspect(raw(shapes::joined({}))).solid_count, 0U);
 }
 
 TEST(Inspect, DeepFindsSelfIntersections) {
