@@ -90,22 +90,26 @@ CommandWords repair_words(const std::filesystem::path& scan, const std::filesyst
 }
 
 CommandWords project_words(const std::filesystem::path& scan, const std::filesystem::path& project,
-                           const NewProjectBody& body, const std::optional<std::filesystem::path>& cell_file,
-                           const std::optional<std::filesystem::path>& painted) {
+                           const NewProjectBody& body, const ProjectFiles& files) {
     CommandWords words{"segment", scan.string(), "--out", project.string()};
     add_option(words, "--units", body.units);
     add_option(words, "--scale", number_text(body.scale));
     add_option(words, "--preset", body.preset);
     add_option(words, "--fragment-volume", number_text(body.fragment_volume_mm3));
     if (body.size_ok) words.emplace_back("--size-ok");
-    if (cell_file) words.insert(words.end(), {"--cell", cell_file->string()});
+    if (files.cell) words.insert(words.end(), {"--cell", files.cell->string()});
+    if (files.plan) words.insert(words.end(), {"--replay", files.plan->string()});
     std::error_code error;
     for (const PaintedRow& row : painted_rows) {
-        if (!painted || !std::filesystem::exists(*painted / row.file, error)) continue;
-        words.insert(words.end(), {row.option, (*painted / row.file).string()});
+        if (!files.painted || !std::filesystem::exists(*files.painted / row.file, error)) continue;
+        words.insert(words.end(), {row.option, (*files.painted / row.file).string()});
     }
     add_repair(words, body.repair);
     return printing_json(std::move(words));
+}
+
+CommandWords plan_words(const std::filesystem::path& project, const std::filesystem::path& file) {
+    return printing_json({"segment", project.string(), "--plan", file.string()});
 }
 
 std::optional<CommandWords> work_words(const std::filesystem::path& project, const WorkBody& body) {

@@ -21,10 +21,16 @@ CommandWords paint_words(const std::filesystem::path& scan, const std::filesyste
 CommandWords check_words(const std::filesystem::path& scan, const CheckBody& body);
 CommandWords repair_words(const std::filesystem::path& scan, const std::filesystem::path& out, const RepairBody& body,
                           const std::optional<std::string>& units);
-// `painted`: the folder of paint_words().
+// Files that a new project is made with, each if there is one.
+struct ProjectFiles {
+    std::optional<std::filesystem::path> cell;
+    std::optional<std::filesystem::path> painted;  // the folder of paint_words()
+    std::optional<std::filesystem::path> plan;     // the file of plan_words()
+};
 CommandWords project_words(const std::filesystem::path& scan, const std::filesystem::path& project,
-                           const NewProjectBody& body, const std::optional<std::filesystem::path>& cell_file,
-                           const std::optional<std::filesystem::path>& painted);
+                           const NewProjectBody& body, const ProjectFiles& files);
+// Writes the cuts of a project into `file`, and changes nothing of it.
+CommandWords plan_words(const std::filesystem::path& project, const std::filesystem::path& file);
 // Nothing: this work is not one of a project.
 std::optional<CommandWords> work_words(const std::filesystem::path& project, const WorkBody& body);
 

@@ -165,6 +165,7 @@ const std::span<const Console::Handler> Console::handlers = [] {
         {Route::change_queue, [](C c, I, R r) { return c.change_queue(r); }},
         {Route::command_cell, [](C c, I i, R r) { return c.command_cell(i[0], r); }},
         {Route::change_simulator, [](C c, I, R r) { return c.change_simulator(r); }},
+        {Route::journal, [](C, I, R) { return journal(); }},
         {Route::page, [](C, I i, R) { return show_page_file(i.empty() ? "" : i[0]); }}};
     return std::span(rows);
 }();

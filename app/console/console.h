@@ -85,6 +85,8 @@ class Console {
     // The id of the display mesh of a file, which is made by a process of its own; empty if it cannot be.
     std::string mesh_of(const std::filesystem::path& scan) const;
     HttpAnswer make_project(const HttpRequest& request);
+    // The refusal, where the cuts of a project cannot be written into the file.
+    std::optional<HttpAnswer> write_plan(const std::string& project, const std::filesystem::path& file) const;
     HttpAnswer show_project(const std::string& id);
     HttpAnswer decide(const std::string& id, const HttpRequest& request);
     HttpAnswer ask(const std::string& id, const HttpRequest& request);
@@ -102,6 +104,8 @@ class Console {
     HttpAnswer change_queue(const HttpRequest& request);
     HttpAnswer command_cell(const std::string& id, const HttpRequest& request);
     HttpAnswer change_simulator(const HttpRequest& request);
+    // Of all cells that this user has handed jobs to.
+    static HttpAnswer journal();
 
     std::shared_ptr<CellLine> cell(const std::string& id) const;
     // The cell to which jobs of a project go: the simulated one of this server, or that of its cell file; nothing

@@ -11,6 +11,8 @@
 #include "app/console/random_digits.h"
 #include "app/console/worker/console_requests.h"
 #include "app/console/worker/resident_project.h"
+#include "app/dispatch/state_folder.h"
+#include "app/report/cell/journal_report.h"
 #include "base/error.h"
 #include "cam/cell/cell.h"
 
@@ -159,6 +161,13 @@ HttpAnswer Console::change_simulator(const HttpRequest& request) {
     if (body.line.find_first_of("\r\n") != std::string::npos) return refusal(400, "this is more than one line");
     options_.tell_simulator(body.line);
     return json_answer(202, "{}");
+}
+
+HttpAnswer Console::journal() {
+    std::vector<JournalReport> reports;
+    for (const fs::path& folder : journal_folders({}))
+        reports.push_back({folder.string(), read_journal(folder), false});
+    return json_answer(200, text_of(document(reports)));
 }
 
 }  // namespace qchopper

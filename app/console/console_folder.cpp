@@ -13,6 +13,7 @@
 #include "app/store/decisions.h"
 #include "app/store/project_folder.h"
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/sha256.h"
 
 namespace qchopper {
@@ -22,9 +23,25 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_listed = 1000;
 constexpr std::size_t id_digits = 16;
-constexpr std::size_t longest_name = 80;
+constexpr std::size_t longest_name = 80;         // characters
+constexpr std::size_t longest_name_bytes = 200;  // of the 255 of a file name
 constexpr std::array scan_endings{".ply", ".stl", ".obj", ".off", ".glb", ".gltf", ".3mf"};
 constexpr std::array stage_words{"cutting", "cut", "done"};  // in the order of Stage
+
+// First and last code of what is no letter of a name beyond ASCII, by the blocks of Unicode 15: controls and signs of
+// Latin-1, soft hyphen among them; characters that fill without being seen; spaces, marks of direction and punctuation;
+// private use; forms that look like ASCII, and what only changes the look of others.
+constexpr std::pair<std::uint32_t, std::uint32_t> no_letters[] = {
+    {0x0080, 0x00A9}, {0x00AB, 0x00B1}, {0x00B4, 0x00B4}, {0x00B6, 0x00B8},   {0x00BB, 0x00BB},   {0x00BF, 0x00BF},
+    {0x034F, 0x034F}, {0x061C, 0x061C}, {0x115F, 0x1160}, {0x1680, 0x1680},   {0x17B4, 0x17B5},   {0x180B, 0x180F},
+    {0x2000, 0x206F}, {0x2E00, 0x2E2E}, {0x2E30, 0x2E7F}, {0x3000, 0x3004},   {0x3008, 0x3020},   {0x3164, 0x3164},
+    {0xD800, 0xF8FF}, {0xFE00, 0xFE1F}, {0xFE30, 0xFE6F}, {0xFEFF, 0xFF0F},   {0xFF1A, 0xFF20},   {0xFF3B, 0xFF40},
+    {0xFF5B, 0xFF65}, {0xFFA0, 0xFFA0}, {0xFFE0, 0xFFFF}, {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0x10FFFF}};
+
+bool is_letter(std::uint32_t code) {
+    if (code < 0x80) return std::isalnum(static_cast<unsigned char>(code)) != 0;
+    return std::ranges::none_of(no_letters, [&](const auto& row) { return code >= row.first && code <= row.second; });
+}
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -133,11 +150,17 @@ std::uint64_t stamp_of(const fs::path& project) {
 }
 
 bool is_project_name(const std::string& name) {
-    const auto is_allowed = [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == ' ' || c == '.' || c == '_' || c == '-';
-    };
-    return !name.empty() && name.size() <= longest_name &&
-           std::isalnum(static_cast<unsigned char>(name.front())) != 0 && std::ranges::all_of(name, is_allowed);
+    if (name.size() > longest_name_bytes) return false;
+    std::size_t characters = 0;
+    std::string_view rest = name;
+    while (!rest.empty()) {
+        const Utf8Character next = first_character(rest);
+        const bool is_sign = characters > 0 && std::string_view(" ._-").find(rest.front()) != std::string_view::npos;
+        if (next.bytes == 0 || !(is_letter(next.code) || is_sign)) return false;
+        rest.remove_prefix(next.bytes);
+        ++characters;
+    }
+    return characters > 0 && characters <= longest_name;
 }
 
 }  // namespace qchopper

@@ -32,7 +32,8 @@ ProjectSummary summary_of(const std::filesystem::path& project);
 std::uint64_t stamp_of(const std::filesystem::path& project);
 
 // Whether a project of this name may be made: 1 to 80 letters, digits, spaces, '.', '_' and '-', the first one a letter
-// or a digit.
+// or a digit, in UTF-8 of at most 200 bytes, which leaves room for the endings of its files. Beyond ASCII every
+// character is taken for a letter but controls, spaces, punctuation and what is not seen; the page takes fewer.
 bool is_project_name(const std::string& name);
 
 }  // namespace qchopper

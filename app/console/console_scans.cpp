@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto mesh_limit = 120s;  // reading ten million faces takes a tenth of it
+constexpr int busy_code = 75;      // of a command: another program holds the project
 
 }  // namespace
 
@@ -86,28 +87,41 @@ HttpAnswer Console::make_project(const HttpRequest& request) {
         scan = found->second.scan;
     }
     const fs::path folder = options_.folder / (body.name + ".qch");
-    std::optional<fs::path> cell_file;
+    ProjectFiles files;
     if (body.cell) {
         const std::vector<ReadyCell> cells = ready_cell_files(options_.folder);
         const auto cell = std::ranges::find(cells, *body.cell, &ReadyCell::name);
         if (cell == cells.end()) return refusal(404, "there is no cell file " + *body.cell, "choose one of the list");
-        cell_file = cell->path;
+        files.cell = cell->path;
     }
-    std::optional<fs::path> painted;
+    if (body.cuts_of) {
+        files.plan = options_.scratch / (random_digits() + ".plan.toml");
+        if (std::optional<HttpAnswer> refused = write_plan(*body.cuts_of, *files.plan)) return *refused;
+    }
     if (!body.strokes.empty()) {
-        painted = options_.scratch / random_digits();
-        fs::create_directory(*painted);
-        const fs::path strokes = *painted / "strokes.json";
+        files.painted = options_.scratch / random_digits();
+        fs::create_directory(*files.painted);
+        const fs::path strokes = *files.painted / "strokes.json";
         write_file(strokes, to_json(body.strokes));
-        const ChildOutput made = run_child(words(paint_words(scan, strokes, *painted, body.units)), mesh_limit);
+        const ChildOutput made = run_child(words(paint_words(scan, strokes, *files.painted, body.units)), mesh_limit);
         if (made.code != 0) return refusal(422, "the scan cannot be painted", "check the scan again");
     }
-    WorkOrder order{WorkKind::project, body.check, words(project_words(scan, folder, body, cell_file, painted))};
-    order.result = [this, folder](const JsonText&) {
+    WorkOrder order{WorkKind::project, body.check, words(project_words(scan, folder, body, files))};
+    order.result = [this, folder](const JsonText& made) {
         look_at_projects();
-        return JsonText{to_json(MadeProject{id_of_name(folder.filename())})};
+        std::error_code error;  // without a folder the cuts do not fit the scan, as the document says
+        const bool is_there = fs::exists(folder / "project.json", error);
+        return JsonText{to_json(MadeProject{is_there ? id_of_name(folder.filename()) : std::string(), made})};
     };
     return begin(std::move(order));
+}
+
+std::optional<HttpAnswer> Console::write_plan(const std::string& project, const fs::path& file) const {
+    const fs::path folder = project_folder(project);
+    const ChildOutput made = run_child(words(plan_words(folder, file)), mesh_limit);
+    if (made.code == 0) return {};
+    if (made.code == busy_code) return refusal(423, "another program writes that project", "try again when it is done");
+    return refusal(422, "the cuts of that project cannot be read", "look at that project");
 }
 
 }  // namespace qchopper

@@ -154,6 +154,7 @@ void fields(V& v, T& repaired) {
 template <class V, Of<MadeProject> T>
 void fields(V& v, T& made) {
     v("project", made.project);
+    v("segment", made.segment);
 }
 
 template <class V, Of<BegunWork> T>

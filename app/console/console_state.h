@@ -128,7 +128,8 @@ struct ShownRepair {
     std::string after;
 };
 struct MadeProject {
-    std::string project;
+    std::string project;  // its id; empty: none was made
+    JsonText segment;
 };
 
 struct BegunWork {

@@ -43,6 +43,7 @@ constexpr std::array rows{
     RouteRow{change_queue, "POST", "/api/queue", moves, false, small_body, "pauses, goes on, removes"},
     RouteRow{command_cell, "POST", "/api/cells/*/commands", moves, false, small_body, "Hold and the other commands"},
     RouteRow{change_simulator, "POST", "/api/simulator", moves, false, small_body, "a line for the simulated cell"},
+    RouteRow{journal, "GET", "/api/journal", key, false, 0, "what cells have carved, and when"},
     RouteRow{events, "GET", "/api/events", key, false, 0, "what changes, as it does"},
     RouteRow{page, "GET", "/", any, false, 0, "the page"},
     RouteRow{page, "GET", "/*", any, false, 0, "a file of the page"},

@@ -36,6 +36,7 @@ enum class Route {
     change_queue,
     command_cell,
     change_simulator,
+    journal,
     events,
     page
 };

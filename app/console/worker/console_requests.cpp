@@ -126,6 +126,7 @@ void fields(V& v, T& project) {
     v.maybe("fragment_volume_mm3", project.fragment_volume_mm3);
     v.maybe("size_ok", project.size_ok);
     v.maybe("repair", project.repair);
+    v.maybe("cuts_of", project.cuts_of);
     v.maybe("strokes", project.strokes);
 }
 

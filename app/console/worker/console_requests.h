@@ -96,7 +96,8 @@ struct NewProjectBody {
     std::optional<double> fragment_volume_mm3;
     bool size_ok = false;  // any size is taken
     RepairBody repair;
-    std::vector<Stroke> strokes;  // in the order in which they were painted
+    std::optional<std::string> cuts_of;  // the id of a project: its cuts are made again, and its weights are taken
+    std::vector<Stroke> strokes;         // in the order in which they were painted
 };
 
 enum class WorkKind { check, repair, project, search, prepare, setups, verify, dry_run, export_pieces, guide };

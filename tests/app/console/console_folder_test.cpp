@@ -157,13 +157,44 @@ TEST_F(ConsoleFolder, AStampChangesWithEveryWriting) {
 }
 
 TEST(ProjectName, IsOfLettersDigitsAndAFewSigns) {
-    for (const std::string& name :
-         {std::string(), std::string(" a"), std::string(".a"), std::string("-rf"), std::string("a/b"),
-          std::string(".."), std::string("a\nb"), std::string("a\0b", 3), std::string(81, 'a'), std::string("\xc3\xa4"),
-          std::string("<b>"), std::string("a'b"), std::string("a\"b"), std::string("a:b"), std::string("_a")}) {
+    std::string longer_than_200_bytes;
+    for (int i = 0; i < 67; ++i) longer_than_200_bytes += "\xe9\xa0\xad";
+    for (const std::string& name : {std::string(),
+                                    std::string(" a"),
+                                    std::string(".a"),
+                                    std::string("-rf"),
+                                    std::string("a/b"),
+                                    std::string(".."),
+                                    std::string("a\nb"),
+                                    std::string("a\0b", 3),
+                                    std::string(81, 'a'),
+                                    std::string("\xc3"),
+                                    std::string("a\xff"),
+                                    std::string("a\xc2\xa0"
+                                                "b"),
+                                    std::string("a\xe2\x80\xae"
+                                                "b"),
+                                    std::string("a\xc2\xad"
+                                                "b"),
+                                    std::string("a\xe2\x80\x8b"
+                                                "b"),
+                                    std::string("\xed\xa0\x80"),
+                                    std::string("\xe3\x85\xa4"),
+                                    std::string("\xef\xbc\x8f"),
+                                    longer_than_200_bytes,
+                                    std::string("<b>"),
+                                    std::string("a'b"),
+                                    std::string("a\"b"),
+                                    std::string("a:b"),
+                                    std::string("_a")}) {
         EXPECT_FALSE(is_project_name(name)) << name;
     }
-    for (const std::string& name : {std::string("a"), std::string("Skull 2.5 of_B-7"), std::string(80, 'a')}) {
+    for (const std::string& name :
+         {std::string("a"), std::string("Skull 2.5 of_B-7"), std::string(80, 'a'),
+          std::string("Sch\xc3\xa4"
+                      "del 3"),
+          std::string("\xc3\xa4"), std::string("\xd1\x87\xd0\xb5\xd1\x80\xd0\xb5\xd0\xbf"),
+          std::string("\xe9\xa0\xad\xe9\xaa\xa8 1"), std::string("a\xcc\x88"), std::string("\xc2\xb2")}) {
         EXPECT_TRUE(is_project_name(name)) << name;
     }
 }

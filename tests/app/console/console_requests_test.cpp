@@ -25,7 +25,7 @@ const std::vector<Reader>& readers() {
         {"repair", R"({"fill":"auto","snap_borders_mm":0.5,"alpha_wrap_mm":2,"smooth_pen_grooves":true})", read_repair},
         {"project",
          R"({"check":"C1","name":"skull","units":"mm","scale":2.5,"cell":"foam-1","preset":"carve",)"
-         R"("fragment_volume_mm3":5,"size_ok":true,"repair":{"fill":"flat"}})",
+         R"("fragment_volume_mm3":5,"size_ok":true,"repair":{"fill":"flat"},"cuts_of":"0f"})",
          read_new_project},
         {"work", R"({"kind":"verify","piece":"A"})", read_work},
         {"ticket", R"({"path":"/api/projects/1/outputs/guide.pdf"})", read_ticket},
@@ -193,6 +193,7 @@ TEST(ConsoleRequests, EveryValueIsRead) {
     EXPECT_EQ(project.fragment_volume_mm3, 5);
     EXPECT_TRUE(project.size_ok);
     EXPECT_EQ(project.repair.fill, "flat");
+    EXPECT_EQ(project.cuts_of, "0f");
     const RepairBody repair = read_repair(readers()[1].good);
     EXPECT_EQ(repair.fill, "auto");
     EXPECT_EQ(repair.snap_borders_mm, 0.5);

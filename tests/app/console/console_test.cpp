@@ -275,6 +275,64 @@ TEST_F(ConsoleTest, AScanIsCheckedAndMadeAProject) {
     EXPECT_FALSE(again.at("error").at("error").get<std::string>().empty());
 }
 
+TEST_F(ConsoleTest, CutsAreMadeAgainOnAPaintedScanAndWhatDoesNotFitIsSaid) {
+    WorkedProject::command({"segment", p.project.string(), "--plane", "1,0,0,0"});
+    WorkedProject::command({"segment", p.project.string(), "--weights", "fragility=11"});
+    WorkedProject::command({"sample", "femur", "--faces", "2000", "-o", (p.folder.path / "femur.ply").string()});
+    const std::string revision = p.revision();
+    const auto checked = [&](const std::string& scan) {
+        return end_of(post("/api/checks", Json{{"scan", id_of_name(scan)}, {"units", "mm"}}.dump()));
+    };
+    const Json check = checked("scan.ply");
+    const Json seen = json_of(get("/api/checks/" + check.at("of").get<std::string>())).at("inspect");
+    const Json point{seen["max"][0], 0, 0, 1, 0, 0};
+    const Json stroke{{"surface", "no_cut"}, {"radius_mm", 15}, {"points", Json::array({point})}};
+    const Json body{{"check", check.at("of")},
+                    {"name",
+                     "Sch\xc3\xa4"
+                     "del 3"},
+                    {"units", "mm"},
+                    {"cuts_of", id_of_name("p.qch")},
+                    {"strokes", Json::array({stroke})}};
+    const Json work = end_of(post("/api/projects", body.dump()));
+    ASSERT_EQ(work.at("state"), "done") << work;
+    EXPECT_EQ(work["result"]["segment"]["demand_met"], true) << work;
+    const Project first = load_project(p.project);
+    const Project again = load_project(p.folder.path /
+                                       "Sch\xc3\xa4"
+                                       "del 3.qch");
+    ASSERT_EQ(again.cuts.size(), 1U);
+    EXPECT_EQ(again.cuts[0].chosen.plane, first.cuts[0].chosen.plane) << "bit for bit";
+    EXPECT_EQ(again.settings.objectives.weights.fragility, 11);
+    EXPECT_EQ(work["result"]["project"], id_of_name("Sch\xc3\xa4"
+                                                    "del 3.qch"));
+    EXPECT_EQ(p.revision(), revision) << "the first one stays as it is";
+
+    Json other = body;
+    other.erase("strokes");
+    other["check"] = checked("femur.ply").at("of");
+    other["name"] = "femur";
+    const Json misfit = end_of(post("/api/projects", other.dump()));
+    ASSERT_EQ(misfit.at("state"), "done") << misfit;
+    EXPECT_EQ(misfit["result"]["project"], "");
+    EXPECT_FALSE(misfit["result"]["segment"]["notes"].empty());
+    EXPECT_FALSE(fs::exists(p.folder.path / "femur.qch"));
+    other["cuts_of"] = "0123456789abcdef";
+    EXPECT_EQ(post("/api/projects", other.dump()).status, 404U);
+    const ProjectLock lock(p.project);
+    other["cuts_of"] = id_of_name("p.qch");
+    EXPECT_EQ(post("/api/projects", other.dump()).status, 423U);
+}
+
+TEST_F(ConsoleTest, TheJournalIsThatOfTheCommandLineWithoutItsRows) {
+    const Json journal = json_of(get("/api/journal"));
+    EXPECT_EQ(journal["schema"], "qchopper-journal-1");
+    for (const Json& one : journal["journals"]) {
+        EXPECT_FALSE(one.contains("rows"));
+        EXPECT_TRUE(one["jobs"].is_array());
+    }
+}
+
 TEST_F(ConsoleTest, AValueIsNeverTakenForAnOption) {
     const Json check = end_of(post("/api/checks", Json{{"scan", id_of_name("scan.ply")}, {"units", "mm"}}.dump()));
     const std::string id = check.at("of");
