@@ -12,7 +12,7 @@ import { CheckPage } from "./pages/check/page";
 import { CutPage } from "./pages/cut/page";
 import { GuidePage } from "./pages/guide";
 import { JobsPage } from "./pages/jobs/page";
-import { PiecesPage } from "./pages/pieces";
+import { PiecesPage } from "./pages/pieces/page";
 import { StartPage } from "./pages/start";
 
 const PAGES = { start: StartPage, check: CheckPage, cut: CutPage, pieces: PiecesPage, jobs: JobsPage, guide: GuidePage };

@@ -205,6 +205,7 @@ export interface Setup {
   reach: Reach | null;
   fits: boolean;
   sawn?: boolean;
+  margins_mm?: Record<string, number>; // by the name of the condition; negative: so much is missing
 }
 
 // Of a plane that is tried by the setups of its pieces. The side is that of the plane's own normal.
@@ -222,7 +223,6 @@ export interface PreparedPiece extends Setup {
   volume_mm3: number;
   box_mm: Vec3;
   piece_state: string;
-  margins_mm: Record<string, number>;
   out_of_reach: unknown[];
   job?: string;
   program?: { parts: number; no_program_because?: string; time_s?: number };
@@ -239,7 +239,11 @@ export interface Prepare {
 }
 
 export interface SetupDocument {
-  pieces: { name: string; ordered: unknown; setups: Setup[] }[];
+  pieces: {
+    name: string;
+    ordered: { base_number: number | null; max_directions: number | null; tools: number[] | null } | null;
+    setups: Setup[];
+  }[];
 }
 
 export interface VerifyDocument {
@@ -307,6 +311,8 @@ export interface Inspect {
   reasons: string[];
   holes: { edges: number; length: number; centre: Vec3 }[];
   places?: { kind: string; points: Vec3[] }[]; // in the units of the file
+  solid_count: number;
+  largest_solids: { volume: number; faces: number; centre: Vec3 }[]; // the largest first, at most 100
   [key: string]: unknown;
 }
 
@@ -314,6 +320,35 @@ export interface Check {
   check: string;
   inspect: Inspect;
   mesh?: string; // in the units of the file
+}
+
+// Result of the work that makes a project.
+export interface MadeProject {
+  project: string; // its id; empty: none was made
+  segment: Pick<Segment, "notes" | "demand_met"> & { done: string | null };
+}
+
+// Of the journals of cells: what was handed over, the oldest first.
+export interface JournalDocument {
+  journals: {
+    cell_id: number;
+    simulated: boolean;
+    endpoint: string;
+    jobs: JournalJob[];
+  }[];
+}
+
+export interface JournalJob {
+  job_id: string;
+  sha256: string; // of the job file
+  file: string;
+  part: number;
+  parts: number;
+  created_ms: number; // since 1970
+  started_ms: number | null;
+  ended_ms: number | null;
+  state: "ended" | "open" | "not_started" | "unknown";
+  result: string | null;
 }
 
 export interface RepairResult {

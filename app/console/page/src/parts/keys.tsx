@@ -66,8 +66,10 @@ export function useKey(action: KeyAction, run: (() => void) | null): void {
   });
 }
 
+// Letters in a list of choices choose.
 const isTyping = (element: Element | null): boolean =>
   element instanceof HTMLTextAreaElement ||
+  element instanceof HTMLSelectElement ||
   (element instanceof HTMLInputElement && !["range", "checkbox", "radio", "button"].includes(element.type));
 
 const ownsArrows = (element: Element | null): boolean =>

@@ -37,6 +37,10 @@ export function time(seconds: number): string {
   return minutes < 60 ? `${minutes}:${rest} min` : `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${rest} h`;
 }
 
+// Of this computer's clock and zone.
+export const moment = (ms: number): string =>
+  new Date(ms).toLocaleString("en-GB", { day: "numeric", month: "short", year: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit" });
+
 export const age = (ms: number): string => (ms < 10_000 ? `${number(ms / 1000, 1)} s ago` : `${time(ms / 1000)} ago`);
 
 // "face_ratio" as "face ratio".

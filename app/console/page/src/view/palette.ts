@@ -15,6 +15,11 @@ const PALETTE = [
   "#685540",
 ];
 
+// Of a tool orientation by its place; they differ in lightness too.
+const ORIENTATIONS = ["#7a1f1f", "#1f5fa8", "#1d6b34", "#8a4b00", "#5b2a86", "#00656b"];
+
+export const orientationColour = (place: number): string => ORIENTATIONS[place % ORIENTATIONS.length]!;
+
 // Of a project's piece by its place in the list.
 export const pieceColour = (pieces: { name: string }[], name: string): string =>
   PALETTE[Math.max(0, pieces.findIndex((piece) => piece.name === name)) % PALETTE.length]!;

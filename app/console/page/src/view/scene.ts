@@ -16,8 +16,10 @@ export interface Picked {
 
 export interface Arrow {
   direction: Vec3;
-  from: Vec3;
+  from: Vec3; // the tail
+  length: number; // mm
   colour: string;
+  rings: number; // around the shaft: a sign beside the colour
 }
 
 export interface Outline {
@@ -182,8 +184,13 @@ export class View3D {
       this.extras.add(new three.Points(geometry, material));
     }
     for (const arrow of arrows)
-      this.extras.add(makeArrow(three, arrow.direction, arrow.from, 0.7 * this.extent.radius, arrow.colour));
+      this.extras.add(makeArrow(three, arrow));
+    this.canvas.dataset["arrows"] = String(arrows.length);
     this.measure();
+    for (const { from } of arrows) {
+      const away = from.map((value, axis) => value - this.extent.centre[axis]!);
+      this.extent.radius = Math.max(this.extent.radius, Math.hypot(...away));
+    }
     if (hasPerson) this.extras.add(this.personBeside());
     this.draw();
   }
@@ -332,14 +339,22 @@ export class View3D {
     canvas.addEventListener("webglcontextlost", () => this.events.onLost());
   }
 
-  // The face under the pointer. Linear in the faces shown.
   private pick(event: PointerEvent): Picked | null {
-    const { three } = this;
     const area = this.canvas.getBoundingClientRect();
-    const at = new three.Vector2(
-      (2 * (event.clientX - area.left)) / area.width - 1,
-      1 - (2 * (event.clientY - area.top)) / area.height,
-    );
+    return this.pickAt((2 * (event.clientX - area.left)) / area.width - 1, 1 - (2 * (event.clientY - area.top)) / area.height);
+  }
+
+  // As a click there would, for those who have no pointer. False: nothing is there.
+  strokeMiddle(): boolean {
+    const hit = this.pickAt(0, 0);
+    if (hit) this.events.onStroke?.(hit, true);
+    return hit !== null;
+  }
+
+  // The face at a place of the picture, each coordinate from -1 to 1. Linear in the faces shown.
+  private pickAt(x: number, y: number): Picked | null {
+    const { three } = this;
+    const at = new three.Vector2(x, y);
     const ray = new three.Raycaster();
     ray.setFromCamera(at, this.camera);
     for (const hit of ray.intersectObjects([...this.meshes.values()].map(({ object }) => object), false)) {
@@ -347,8 +362,13 @@ export class View3D {
       if (!found || !hit.face) continue;
       const isHidden = (found.object.material.clippingPlanes ?? []).some((plane) => plane.distanceToPoint(hit.point) < 0);
       if (isHidden) continue;
-      const { x, y, z } = hit.face.normal;
-      return { name: found.solid.name, face: hit.faceIndex ?? 0, point: [hit.point.x, hit.point.y, hit.point.z], normal: [x, y, z] };
+      const { normal } = hit.face;
+      return {
+        name: found.solid.name,
+        face: hit.faceIndex ?? 0,
+        point: [hit.point.x, hit.point.y, hit.point.z],
+        normal: [normal.x, normal.y, normal.z],
+      };
     }
     return null;
   }

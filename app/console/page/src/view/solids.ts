@@ -3,6 +3,7 @@
 import type { DisplayMesh } from "../geometry/display_mesh";
 import type { Vec3 } from "../link/documents";
 import type { Three } from "./load_three";
+import type { Arrow } from "./scene";
 
 export interface Solid {
   name: string;
@@ -81,8 +82,8 @@ export function makePerson(three: Three): InstanceType<Three["Group"]> {
   return person;
 }
 
-// From the middle of the tail to the tip, `length` mm long.
-export function makeArrow(three: Three, direction: Vec3, from: Vec3, length: number, colour: string): InstanceType<Three["Group"]> {
+// From the middle of the tail to the tip; the rings are from the tail on.
+export function makeArrow(three: Three, { direction, from, length, colour, rings }: Arrow): InstanceType<Three["Group"]> {
   const arrow = new three.Group();
   const material = new three.MeshLambertMaterial({ color: colour });
   const shaft = new three.Mesh(new three.CylinderGeometry(0.02 * length, 0.02 * length, 0.75 * length, 12), material);
@@ -90,6 +91,11 @@ export function makeArrow(three: Three, direction: Vec3, from: Vec3, length: num
   const head = new three.Mesh(new three.ConeGeometry(0.07 * length, 0.25 * length, 16), material);
   head.position.y = 0.875 * length;
   arrow.add(shaft, head);
+  for (let i = 0; i < rings; ++i) {
+    const ring = new three.Mesh(new three.CylinderGeometry(0.05 * length, 0.05 * length, 0.03 * length, 16), material);
+    ring.position.y = (0.06 + 0.07 * i) * length;
+    arrow.add(ring);
+  }
   arrow.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), new three.Vector3(...direction).normalize());
   arrow.position.set(...from);
   return arrow;

@@ -23,6 +23,8 @@ interface Props {
   places?: Vec3[];
   arrows?: Arrow[];
   person?: boolean;
+  middle?: number; // when it grows, a stroke of one point is painted in the middle of the view
+  onMiddle?: (isPainted: boolean) => void;
   onPlane?: (plane: CutPlane, released: boolean) => void;
   onPick?: (picked: Picked | null) => void;
   onStroke?: ((picked: Picked, isFirst: boolean) => void) | null;
@@ -81,11 +83,15 @@ export function View(props: Props) {
   useEffect(() => {
     if (share !== undefined) view.current?.part(share);
   }, [isReady, share, solids]);
+  const { middle = 0 } = props;
+  useEffect(() => {
+    if (middle > 0) props.onMiddle?.(view.current?.strokeMiddle() ?? false);
+  }, [middle]);
   useViewKeys(view);
 
   return (
     <div class="view">
-      <div class="picture">
+      <div class={props.onStroke ? "picture aim" : "picture"}>
         <canvas ref={canvas} role="img" aria-label={props.label} tabIndex={0} hidden={trouble !== ""} />
         {trouble !== "" && (
           <p class="wait" role="status">

@@ -3,12 +3,13 @@
 import { useEffect, useState } from "preact/hooks";
 import { go } from "../../address";
 import { get, post } from "../../link/api";
-import type { Check, Choices } from "../../link/documents";
+import type { Check, Choices, Files, MadeProject } from "../../link/documents";
 import { useAsking } from "../../parts/asking";
-import { ErrorBox } from "../../parts/error";
+import { ErrorBox, sentence } from "../../parts/error";
 import { NumberField } from "../../parts/number_field";
 import { useWork } from "../../parts/work_result";
 import { fileName, length } from "../../parts/words";
+import { nameProblem, projectName } from "./names";
 import { chosen, type RepairChoices } from "./repair";
 import { mmOf } from "./scales";
 import type { Stroke } from "./strokes";
@@ -16,35 +17,48 @@ import type { Stroke } from "./strokes";
 interface Props {
   check: Check;
   units: string | null;
+  scale: number;
+  fragment: number; // mm3; 0: as the engine does
   choices: RepairChoices;
   strokes: Stroke[];
+  cutsOf: string; // the id of the project whose cuts are made again; empty: none
   off: boolean;
+  onScale: (scale: number) => void;
 }
 
-const isSafeName = (name: string): boolean => /^[\p{L}\p{N}][\p{L}\p{N} ._-]{0,99}$/u.test(name);
-
-export function BeginPanel({ check, units, choices, strokes, off }: Props) {
+export function BeginPanel(props: Props) {
+  const { check, units, scale, fragment, choices, strokes, off, onScale } = props;
   const [offered, setOffered] = useState<Choices | null>(null);
-  const [name, setName] = useState(nameOf(check.inspect.file));
+  const [files, setFiles] = useState<Files | null>(null);
+  const [typed, setTyped] = useState<string | null>(null); // null: as proposed
+  const [cutsOf, setCutsOf] = useState(props.cutsOf);
   const [cell, setCell] = useState("");
-  const [preset, setPreset] = useState("carve");
-  const [scale, setScale] = useState(1);
-  const [fragment, setFragment] = useState(0);
+  const [preset, setPreset] = useState(props.cutsOf === "" ? "carve" : "");
   const [isSizeRight, setSizeRight] = useState(false);
   const asking = useAsking();
-  const { work, error, begin } = useWork<{ project: string }>(({ project }) => go("cut", project));
+  const [made, setMade] = useState<MadeProject | null>(null); // with something to be told
+  const { work, error, begin } = useWork<MadeProject>((result) => {
+    if (result.project !== "" && result.segment.notes.length === 0) go("cut", result.project);
+    else setMade(result);
+  });
   useEffect(() => {
     get<Choices>("/api/choices").then(setOffered, () => undefined);
+    get<Files>("/api/files").then(setFiles, () => undefined);
   }, []);
+  const withCuts = files?.projects.filter((one) => (one.cuts ?? 0) > 0) ?? [];
+  const taken = files?.projects.map((one) => one.name) ?? [];
+  const name = typed ?? freeName(nameOf(check.inspect.file), taken);
   const make = () =>
     asking.run(async () => {
+      setMade(null);
       const body = {
         check: check.check,
-        name,
+        name: projectName(name),
         units,
         scale,
         cell: cell === "" ? null : cell,
-        preset,
+        ...(preset === "" ? {} : { preset }),
+        ...(cutsOf === "" ? {} : { cuts_of: cutsOf }),
         ...(isUnusual && isSizeRight ? { size_ok: true } : {}),
         ...(fragment > 0 ? { fragment_volume_mm3: fragment } : {}),
         repair: chosen(choices),
@@ -55,11 +69,12 @@ export function BeginPanel({ check, units, choices, strokes, off }: Props) {
   const runs = work !== null && ["queued", "running", "stopping"].includes(work.state);
   const longest = Math.max(...check.inspect.size) * mmOf(units) * scale;
   const isUnusual = units !== null && (longest < 10 || longest > 20_000); // as the command line asks too
+  const problem = nameProblem(projectName(name), taken);
   const missing =
     units === null
       ? "Choose the units first."
-      : !isSafeName(name)
-        ? "Give the project a name of letters and digits."
+      : problem !== ""
+        ? problem
         : isUnusual && !isSizeRight
           ? "Say that the size is right."
           : "";
@@ -68,8 +83,28 @@ export function BeginPanel({ check, units, choices, strokes, off }: Props) {
     <section>
       <h2>Begin</h2>
       <label>
-        Name of the project <input type="text" value={name} maxLength={100} onInput={(event) => setName(event.currentTarget.value)} />
+        Name of the project <input type="text" value={name} aria-invalid={problem !== ""} onInput={(event) => setTyped(event.currentTarget.value)} />
       </label>
+      {withCuts.length > 0 && (
+        <label>
+          Cuts{" "}
+          <select
+            value={cutsOf}
+            onChange={(event) => {
+              setCutsOf(event.currentTarget.value);
+              setPreset(event.currentTarget.value === "" ? "carve" : "");
+            }}
+          >
+            <option value="">none yet</option>
+            {withCuts.map((one) => (
+              <option key={one.id} value={one.id}>
+                those of {one.name}
+              </option>
+            ))}
+          </select>
+        </label>
+      )}
+      {cutsOf !== "" && <p class="note">Its cuts are made again on this scan, as it is painted now; setups and jobs are not taken over.</p>}
       <label>
         Cell{" "}
         <select value={cell} onChange={(event) => setCell(event.currentTarget.value)}>
@@ -85,6 +120,7 @@ export function BeginPanel({ check, units, choices, strokes, off }: Props) {
       <label>
         Preset{" "}
         <select value={preset} onChange={(event) => setPreset(event.currentTarget.value)}>
+          {cutsOf !== "" && <option value="">the weights of that project</option>}
           {(offered?.presets ?? [{ name: "carve", sentence: "" }]).map((one) => (
             <option key={one.name} value={one.name}>
               {one.name}
@@ -93,9 +129,7 @@ export function BeginPanel({ check, units, choices, strokes, off }: Props) {
         </select>
       </label>
       <p class="note">{sentenceOf(offered?.presets, preset)}</p>
-      <NumberField label="Enlarge by the factor" min={1e-6} value={scale} onValue={setScale} />
-      <NumberField label="Solids are fragments below" unit="mm3" min={0} value={fragment} onValue={setFragment} />
-      <p class="note">0: a hundred-thousandth of the volume of the scan.</p>
+      <NumberField label="Enlarge by the factor" min={1e-6} value={scale} onValue={onScale} />
       {isUnusual && (
         <label class="box">
           <input type="checkbox" checked={isSizeRight} onChange={(event) => setSizeRight(event.currentTarget.checked)} /> A length of{" "}
@@ -108,9 +142,37 @@ export function BeginPanel({ check, units, choices, strokes, off }: Props) {
         </button>
         <span role="status">{missing}</span>
       </p>
+      {made && <Told made={made} />}
       <ErrorBox error={asking.error ?? error} actions={{ try_again: asking.again }} onClose={asking.clear} />
     </section>
   );
+}
+
+// What is to be told of the cuts that were made again.
+function Told({ made }: { made: MadeProject }) {
+  const { notes, demand_met } = made.segment;
+  return (
+    <div role="status">
+      <p class={demand_met ? "" : "state warn"}>
+        {!demand_met && <span aria-hidden="true">⚠ </span>}
+        {notes.map(sentence).join(" ")}
+      </p>
+      {made.project !== "" && (
+        <button type="button" onClick={() => go("cut", made.project)}>
+          Open the project
+        </button>
+      )}
+    </div>
+  );
+}
+
+// "femur 2" where there is a project femur.
+function freeName(name: string, taken: readonly string[]): string {
+  const isTaken = (one: string) => taken.includes(`${one}.qch`);
+  for (let n = 2, one = name; ; ++n) {
+    if (!isTaken(one)) return one;
+    one = `${name} ${n}`;
+  }
 }
 
 // "femur.ply" as "femur".

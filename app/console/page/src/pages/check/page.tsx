@@ -17,6 +17,7 @@ import { BeginPanel } from "./begin";
 import { FaultTable, placesOf } from "./faults";
 import { NO_CHOICES, RepairPanel, type RepairChoices } from "./repair";
 import { mmOf, scaledMesh, sizeIn, unitName } from "./scales";
+import { SolidTable } from "./solids";
 import { BrushPanel, painted, withPoint, type Brush, type Stroke } from "./strokes";
 
 const SCAN_COLOUR = "#e3d9c6";
@@ -44,10 +45,10 @@ export function CheckPage({ address, stale }: { address: Address; stale: boolean
         )}
       </main>
     );
-  return <Checked key={check.check} check={check} scan={address.selection["scan"] ?? ""} stale={stale} />;
+  return <Checked key={check.check} check={check} selection={address.selection} stale={stale} />;
 }
 
-function Checked({ check, scan, stale }: { check: Check; scan: string; stale: boolean }) {
+function Checked({ check, selection, stale }: { check: Check; selection: Record<string, string>; stale: boolean }) {
   const { state } = useStore();
   const { inspect } = check;
   const [shown, setShown] = useState("");
@@ -55,6 +56,10 @@ function Checked({ check, scan, stale }: { check: Check; scan: string; stale: bo
   const [repaired, setRepaired] = useState<RepairResult | null>(null);
   const [share, setShare] = useState(0.5);
   const [strokes, setStrokes] = useState<Stroke[]>([]);
+  const [scale, setScale] = useState(1);
+  const [fragment, setFragment] = useState(0);
+  const [middle, setMiddle] = useState(0); // how often the middle of the view was painted
+  const [missed, setMissed] = useState(false); // nothing was there to be painted
   const [brush, setBrush] = useState<Brush>({ surface: null, radius: 10 });
   const off = stale || (state?.read_only ?? true) || (state ? currentWork(state) !== null : true);
 
@@ -85,9 +90,9 @@ function Checked({ check, scan, stale }: { check: Check; scan: string; stale: bo
       <h1 class="unseen">Check {fileName(inspect.file)}</h1>
       <div class="left">
         <Verdict check={check} />
-        <Units check={check} scan={scan} off={off} />
+        <Units check={check} selection={selection} off={off} />
         <FaultTable check={check} shown={shown} onShow={setShown} />
-        <Solids check={check} />
+        <SolidTable inspect={inspect} scale={scale} limit={fragment} onLimit={setFragment} />
       </div>
       <div class="middle">
         <View
@@ -95,6 +100,8 @@ function Checked({ check, scan, stale }: { check: Check; scan: string; stale: bo
           solids={solids}
           places={places}
           person={inspect.units !== null && repaired === null && strokes.length === 0 && brush.surface === null}
+          middle={middle}
+          onMiddle={(isPainted) => setMissed(!isPainted)}
           {...(repaired ? { share } : {})}
           onStroke={
             brush.surface === null ? null : (picked, isFirst) => setStrokes((old) => withPoint(old, brush, picked, isFirst))
@@ -115,13 +122,23 @@ function Checked({ check, scan, stale }: { check: Check; scan: string; stale: bo
           onShare={setShare}
         />
         {repaired === null ? (
-          <BrushPanel brush={brush} strokes={strokes} onBrush={setBrush} onStrokes={setStrokes} />
+          <BrushPanel brush={brush} strokes={strokes} onBrush={setBrush} onStrokes={setStrokes} missed={missed} onMiddle={() => setMiddle(middle + 1)} />
         ) : (
           <button type="button" onClick={() => setRepaired(null)}>
             Show the scan as it is
           </button>
         )}
-        <BeginPanel check={check} units={inspect.units} choices={choices} strokes={strokes} off={off} />
+        <BeginPanel
+          check={check}
+          units={inspect.units}
+          scale={scale}
+          fragment={fragment}
+          choices={choices}
+          strokes={strokes}
+          cutsOf={selection["cuts"] ?? ""}
+          off={off}
+          onScale={setScale}
+        />
       </div>
     </main>
   );
@@ -153,10 +170,11 @@ function Verdict({ check: { inspect } }: { check: Check }) {
 }
 
 // A file without units: a button each, with the size that it gives. The scan is checked again in those.
-function Units({ check, scan, off }: { check: Check; scan: string; off: boolean }) {
+function Units({ check, selection, off }: { check: Check; selection: Record<string, string>; off: boolean }) {
+  const scan = selection["scan"] ?? "";
   const { inspect } = check;
   const asking = useAsking();
-  const { work, error, begin } = useWork<Check>((result) => go("check", result.check, { scan }));
+  const { work, error, begin } = useWork<Check>((result) => go("check", result.check, selection));
   if (inspect.units_in_file !== null) return <p>Units: {unitName(inspect.units_in_file)}, as the file says.</p>;
   const choose = (units: string) =>
     asking.run(async () =>
@@ -180,30 +198,5 @@ function Units({ check, scan, off }: { check: Check; scan: string; off: boolean 
       ))}
       <ErrorBox error={asking.error ?? error} actions={{ try_again: asking.again }} onClose={asking.clear} />
     </fieldset>
-  );
-}
-
-function Solids({ check: { inspect } }: { check: Check }) {
-  const shells = Number(inspect["shells"] ?? 0);
-  const cavities = Number(inspect["cavities"] ?? 0);
-  const fragments = inspect["fragments"] as { count: number } | undefined;
-  return (
-    <table>
-      <caption>What the scan holds</caption>
-      <tbody>
-        <tr>
-          <th scope="row">Shells</th>
-          <td class="figure">{count(shells)}</td>
-        </tr>
-        <tr>
-          <th scope="row">Cavities</th>
-          <td class="figure">{count(cavities)}</td>
-        </tr>
-        <tr>
-          <th scope="row">Fragments</th>
-          <td class="figure">{count(fragments?.count ?? 0)}</td>
-        </tr>
-      </tbody>
-    </table>
   );
 }

@@ -3,6 +3,7 @@
 
 import type { Vec3 } from "../../link/documents";
 import { NumberField } from "../../parts/number_field";
+import { length } from "../../parts/words";
 import type { Picked } from "../../view/scene";
 
 export type Surface = "ignore" | "no_cut" | "clear";
@@ -69,9 +70,11 @@ interface Props {
   strokes: Stroke[];
   onBrush: (brush: Brush) => void;
   onStrokes: (strokes: Stroke[]) => void;
+  missed: boolean; // nothing was in the middle of the view
+  onMiddle: () => void; // paints what is in the middle of the view
 }
 
-export function BrushPanel({ brush, strokes, onBrush, onStrokes }: Props) {
+export function BrushPanel({ brush, strokes, onBrush, onStrokes, missed, onMiddle }: Props) {
   return (
     <fieldset>
       <legend>Paint</legend>
@@ -92,14 +95,40 @@ export function BrushPanel({ brush, strokes, onBrush, onStrokes }: Props) {
       </div>
       <div class="row">
         <NumberField label="Radius" unit="mm" min={0.1} value={brush.radius} onValue={(radius) => onBrush({ ...brush, radius })} />
+        <button type="button" disabled={brush.surface === null} onClick={onMiddle}>
+          Paint the middle of the view
+        </button>
         <button type="button" disabled={strokes.length === 0} onClick={() => onStrokes(strokes.slice(0, -1))}>
           Take the last stroke back
         </button>
       </div>
       <p class="note" role="status">
-        {strokes.length === 0 ? "Nothing is painted." : `${strokes.length} strokes.`} Grey may stay; red must not be cut. Painting
+        {missed && "The scan is not in the middle of the view: turn it, or Fit. "}
+        {strokes.length === 0 ? "Nothing is painted." : strokes.length === 1 ? "1 stroke." : `${strokes.length} strokes.`} Grey may stay; red must not be cut. Painting
         ends with Begin.
       </p>
+      {strokes.length > 0 && (
+        <table>
+          <caption>Strokes</caption>
+          <tbody>
+            {strokes.map((stroke, i) => (
+              <tr key={i}>
+                <th scope="row">{i + 1}</th>
+                <td>{SURFACES.find((one) => one.surface === stroke.surface)?.words}</td>
+                <td class="figure">{length(stroke.radius_mm)}</td>
+                <td class="figure">
+                  {stroke.points.length} {stroke.points.length === 1 ? "point" : "points"}
+                </td>
+                <td>
+                  <button type="button" class="quiet" aria-label={`Remove stroke ${i + 1}`} onClick={() => onStrokes(strokes.filter((one) => one !== stroke))}>
+                    Remove
+                  </button>
+                </td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
     </fieldset>
   );
 }

@@ -17,6 +17,7 @@ import type { Solid } from "../../view/solids";
 import { View } from "../../view/view";
 import { ViewNote } from "../../view/note";
 import { pieceColour } from "../../view/palette";
+import { NewWithCuts } from "./again";
 import { Decisions } from "./decisions";
 import { nextSide, PlaneEditor, type EditorState } from "./plane_editor";
 import { PlaneTable } from "./planes";
@@ -121,6 +122,7 @@ function Cutting({ project, address, stale }: { project: Project; address: Addre
       <div class="left">
         <PieceTree project={project} piece={piece} off={off} onPiece={(name) => select({ piece: name, plane: "" })} onDiscard={discard} />
         <Decisions project={project} off={off} onBack={(n) => asking.run(async () => setDone(await decide(project, { back_to: n })))} />
+        <NewWithCuts project={project} off={off} />
       </div>
       <div class="middle">
         <View

@@ -11,6 +11,7 @@ import { asApiError, ErrorBox, sentence } from "../../parts/error";
 import { Signed } from "../../parts/signed";
 import { useWork } from "../../parts/work_result";
 import { count, sides, time } from "../../parts/words";
+import { CarvedTable } from "./carved";
 import { CellPanels } from "./cells";
 import { HandOver } from "./hand_over";
 import { QueueTable } from "./queue";
@@ -19,14 +20,19 @@ import { SimulatorPanel } from "./simulator";
 export function JobsPage({ address, stale }: { address: Address; stale: boolean }) {
   const { project, error, retry } = useProject(address.id);
   const { state } = useStore();
+  const [planned, setPlanned] = useState<PlannedJob[]>([]);
+  const queue = state?.queue ?? [];
+  const pieces = new Map([...queue, ...planned].map((one) => [one.job, one.piece]));
+  const mark = queue.map((entry) => `${entry.id} ${entry.state}`).join();
   return (
     <main class="jobs">
       <h1>Jobs{project ? ` of ${project.name}` : ""}</h1>
       <ErrorBox error={error} actions={{ try_again: retry }} />
-      {project && <ProjectJobs project={project} stale={stale} />}
+      {project && <ProjectJobs project={project} stale={stale} onJobs={setPlanned} />}
       {state && <QueueTable queue={state.queue} off={stale} />}
       {state && <CellPanels cells={state.cells} stale={stale} />}
       {state?.simulator && <SimulatorPanel off={stale} />}
+      {state && <CarvedTable pieces={pieces} mark={mark} />}
     </main>
   );
 }
@@ -51,13 +57,20 @@ function useJobs(project: Project, isWorking: boolean): { jobs: JobsDocument | n
   return { jobs, error };
 }
 
-function ProjectJobs({ project, stale }: { project: Project; stale: boolean }) {
+interface ProjectProps {
+  project: Project;
+  stale: boolean;
+  onJobs: (jobs: PlannedJob[]) => void;
+}
+
+function ProjectJobs({ project, stale, onJobs }: ProjectProps) {
   const { state } = useStore();
   const [chosen, setChosen] = useState<string[]>([]);
   const asking = useAsking();
   const isWorking = state ? currentWork(state) !== null : true;
   const off = stale || (state?.read_only ?? true) || isWorking || asking.busy;
   const { jobs, error } = useJobs(project, isWorking);
+  useEffect(() => onJobs(jobs?.jobs ?? []), [jobs]);
   const toggle = (piece: string) =>
     setChosen((old) => (old.includes(piece) ? old.filter((one) => one !== piece) : [...old, piece]));
   const names = [...new Set(jobs?.jobs.map((job) => job.piece) ?? [])];
