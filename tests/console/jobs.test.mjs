@@ -138,4 +138,10 @@ windowTest("The guide is made, opens in a window of its own, and is saved", serv
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save the PDF" }).click()]);
   assert.equal(download.suggestedFilename(), "a-guide.pdf");
   assert.deepEqual(readFileSync(await download.path()), readFileSync(join(server.projects, "a.qch/guide.pdf")));
+  const [glb] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save the GLB" }).click()]);
+  assert.equal(glb.suggestedFilename(), "a-guide.glb");
+  const bytes = readFileSync(await glb.path());
+  assert.deepEqual(bytes, readFileSync(join(server.projects, "a.qch/guide.glb")));
+  assert.equal(bytes.toString("latin1", 0, 4), "glTF");
+  assert.equal(bytes.readUInt32LE(8), bytes.length, "it is whole");
 });

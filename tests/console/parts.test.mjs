@@ -222,3 +222,56 @@ test("figures are written as the command line writes them", () => {
   assert.equal(page.time(3850), "1:04:10 h");
   assert.equal(page.progress(37, 120, "cuts evaluated"), "37 of 120 cuts evaluated");
 });
+
+test("arrows of tool orientations point into the piece, end outside of it, and move with it", () => {
+  const { vertices } = icosphere(3, 80);
+  const positions = Float32Array.from(vertices.flatMap(([x, y, z]) => [x + 5, 2 * y, 0.5 * z - 7]));
+  const { middle, radius } = page.extentOf(positions);
+  assert.ok(radius > 80 && radius < 300);
+  const axes = [[0, 0, 1], [0.6, 0, 0.8], [-0.48, 0.64, 0.6], [0, -1, 0]];
+  const shift = [10, 20, 30];
+  const still = page.toolArrows(axes, positions, [0, 0, 0]);
+  page.toolArrows(axes, positions, shift).forEach((arrow, i) => {
+    assert.deepEqual(arrow.direction, axes[i].map((part) => -part));
+    arrow.from.forEach((value, axis) => assert.ok(Math.abs(value - still[i].from[axis] - shift[axis]) < 1e-9));
+    const tip = still[i].from.map((value, axis) => value + arrow.length * arrow.direction[axis]);
+    const along = (point) => point[0] * axes[i][0] + point[1] * axes[i][1] + point[2] * axes[i][2];
+    let highest = -Infinity;
+    for (let p = 0; p < positions.length; p += 3) highest = Math.max(highest, along(positions.subarray(p, p + 3)));
+    const gap = along(tip) - highest;
+    assert.ok(gap > 0 && gap < 0.1 * radius, `${gap}`);
+    // Through the middle of the piece.
+    const beside = tip.map((value, axis) => value - middle[axis] - (along(tip) - along(middle)) * axes[i][axis]);
+    assert.ok(Math.hypot(...beside) < 1e-6);
+  });
+  assert.deepEqual(page.toolArrows([], positions, shift), []);
+  assert.deepEqual(page.extentOf(new Float32Array(0)), { middle: [0, 0, 0], radius: 0 });
+});
+
+test("a name is taken if the server takes it, and else a sentence says what is wrong", () => {
+  for (const name of ["a", "Schädel 3", "ä", "череп", "頭骨 1", "Skull 2.5 of_B-7", "a".repeat(80), "頭".repeat(66), "नमस्ते"]) assert.equal(page.nameProblem(name, []), "", name);
+  const wrong = {
+    "": /^Give the project a name/,
+    " a": /begin with/,
+    "-rf": /begin with/,
+    ".a": /begin with/,
+    _a: /begin with/,
+    "\u0301a": /begin with/,
+    "a/b": /^Leave out “\/”/,
+    "a\nb": /U\+000A/,
+    "a\0b": /U\+0000/,
+    "a\u202eb": /U\+202E/,
+    "a\u00a0b": /U\+00A0/,
+    "a\u00adb": /U\+00AD/,
+    "a\u3164b": /U\+3164/,
+    "<b>": /begin with/,
+    "a<b>": /“<”/,
+    "a'b": /“'”/,
+    "a\u{1f480}b": /Leave out/,
+    ["a".repeat(81)]: /shorter/,
+    ["頭".repeat(67)]: /shorter/,
+  };
+  for (const [name, sentence] of Object.entries(wrong)) assert.match(page.nameProblem(name, []), sentence, JSON.stringify(name));
+  assert.equal(page.nameProblem("a", ["a.qch"]), "A project of this name is there already.");
+  assert.equal(page.projectName(" Scha\u0308del 3 "), "Schädel 3");
+});
