@@ -23,6 +23,9 @@ const browserProgram = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const failures = join(root, "build/console/failures");
 
 // llvmpipe: three to five times faster than Chromium's own renderer.
+// Of whatever a test waits for: for a machine with much else to do. What has to be quick is measured apart.
+const LIMIT_MS = 120_000;
+
 const ARGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
 
 export class Console {
@@ -83,12 +86,13 @@ export class Console {
 
 export async function launch(...more) {
   assert.ok(existsSync(browserProgram), `${browserProgram} is missing: scripts/install console`);
-  return chromium.launch({ executablePath: browserProgram, args: [...ARGS, ...(process.getuid() === 0 ? ["--no-sandbox"] : []), ...more] });
+  return chromium.launch({ executablePath: browserProgram, timeout: LIMIT_MS, args: [...ARGS, ...(process.getuid() === 0 ? ["--no-sandbox"] : []), ...more] });
 }
 
 // A window. What it must never do is kept in `faults`: errors of scripts, violations of the policy, requests elsewhere.
 export async function openWindow(browser, server, address = "", options = {}) {
   const context = options.context ?? (await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options.settings }));
+  context.setDefaultTimeout(LIMIT_MS);
   const page = await context.newPage();
   page.faults = [];
   page.said = [];

@@ -43,7 +43,7 @@ class Server:
         headers["X-Request-Id"] = str(uuid.uuid4())
         if revision:
             headers["If-Match"] = f'"{revision}"'
-        connection = http.client.HTTPConnection(self.host, timeout=30)
+        connection = http.client.HTTPConnection(self.host, timeout=120)
         connection.request(method, path, json.dumps(body) if body is not None else None, headers)
         answer = connection.getresponse()
         return answer.status, json.loads(answer.read())
@@ -71,7 +71,7 @@ class Server:
 
 def hand_over(server, name):
     """Hands the first job of the project over, once the cell is read."""
-    end = time.monotonic() + 20
+    end = time.monotonic() + 60
     while time.monotonic() < end:
         state = server.state()
         project = next((p for p in state["projects"] if p["name"] == name), None)

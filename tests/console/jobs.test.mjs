@@ -34,7 +34,7 @@ windowTest("Prepare makes jobs, and their table says what the command line says"
   const page = keep(await open("jobs"));
   await page.getByRole("button", { name: "Prepare" }).click();
   await page.locator(".work strong", { hasText: "Prepare" }).waitFor();
-  await page.getByRole("checkbox", { name: "Hand over piece B" }).waitFor({ timeout: 120_000 });
+  await page.getByRole("checkbox", { name: "Hand over piece B" }).waitFor();
   const made = server.run("prepare", "a.qch");
   for (const piece of made.pieces) await page.getByRole("checkbox", { name: `Hand over piece ${piece.name}` }).waitFor();
   await assertAccessible(page);
@@ -47,7 +47,7 @@ windowTest("Verify shows its findings, and a dry run its ends", server, async (k
   await page.getByText("Not every job is verified.").waitFor();
   await page.getByText("The job holds no robot program: the cell file describes no machine.").first().waitFor();
   await page.getByRole("button", { name: "Dry run" }).click();
-  await page.getByText("Dry run: every job ran to its end").waitFor({ timeout: 60_000 });
+  await page.getByText("Dry run: every job ran to its end").waitFor();
   await assertAccessible(page);
 });
 
@@ -55,7 +55,7 @@ windowTest("The surface of a piece is shown by state, with words beside the colo
   const page = keep(await open("pieces"));
   await page.locator('canvas[data-solids="2"]').waitFor();
   await page.getByRole("button", { name: "Compare all bases" }).click();
-  await page.getByRole("table", { name: "Tool orientations" }).waitFor({ timeout: 60_000 });
+  await page.getByRole("table", { name: "Tool orientations" }).waitFor();
   await page.getByRole("button", { name: "Surface by state" }).click();
   await page.getByRole("list", { name: "Colours of the surface" }).getByText("steep").waitFor();
   const setup = server.run("setup", "a.qch", "--piece", "B").pieces[0].setups;
@@ -129,7 +129,7 @@ windowTest("A job goes to the simulated cell, which asks; Hold by key from anoth
 windowTest("The guide is made, opens in a window of its own, and is saved", server, async (keep) => {
   const page = keep(await open("guide"));
   await page.getByRole("button", { name: "Make the guide" }).click();
-  await page.getByText(/The guide is made: 2 pieces/).waitFor({ timeout: 60_000 });
+  await page.getByText(/The guide is made: 2 pieces/).waitFor();
   await assertAccessible(page);
   const [popup] = await Promise.all([page.waitForEvent("popup"), page.getByRole("button", { name: "Open to print" }).click()]);
   await popup.waitForURL(/\/api\/t\//);

@@ -199,7 +199,7 @@ windowTest("A plane is tried by the setups of its pieces, with areas by state", 
   await isExact(page);
   await page.getByText("Exact.").waitFor();
   await page.getByRole("button", { name: "Try by setups" }).click();
-  await page.getByRole("table", { name: /^Piece above/ }).waitFor({ timeout: 60_000 });
+  await page.getByRole("table", { name: /^Piece above/ }).waitFor();
   await page.getByRole("table", { name: /^Piece below/ }).getByText("reached").waitFor();
   const { preview } = server.run("segment", "a.qch", "--preview", "1", "--setups");
   for (const { side, areas_mm2 } of preview.milled_pieces.pieces)
