@@ -59,12 +59,12 @@ std::string key_of_file(const fs::path& path) {
     return key;
 }
 
-// A simulated cell in a process of its own, which ends with this object.
+// A simulated cell in a process of its own, which ends with this object, and with this process however it ends.
 class SimulatedCell {
  public:
     SimulatedCell(const std::string& program, const fs::path& folder)
         : child_({program, "cell-sim", "--listen", "127.0.0.1:0", "--consent", "ask", "--drop", folder.string(),
-                  "--json"}) {
+                  "--json", "--progress", "json"}) {
         std::string document;
         while (!child_.has_ended() && !document.ends_with("}\n")) {
             const auto line = child_.read_line(5s);
@@ -128,6 +128,10 @@ int run(const ServeArguments& arguments, Terminal& terminal) {
     options.scratch = scratch.path();
     // Of this folder alone: another server shows and follows its own jobs.
     options.queue = state_folder() / "console" / id_of_name(options.folder.string());
+    if (const std::optional<std::string> other = writer_of(options.queue); other && arguments.is_read_only) {
+        terminal.message("Another server of this folder hands its jobs over, and shows them: " + *other + ".");
+        options.queue = scratch.path() / "queue";
+    }
     options.to = arguments.to;
     options.drop = arguments.drop;
     std::optional<SimulatedCell> simulator;

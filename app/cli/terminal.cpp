@@ -191,6 +191,11 @@ void Terminal::watch(const std::stop_token& stop) {
         return static_cast<bool>(report_stop_);
     };
     while (!stop.stop_requested()) {
+        // Such as a console that was killed: its page shows the work no more, and could not stop it.
+        if (!cancelled && ends_when_stopped() && has_lost_reader()) {
+            signal_number = SIGHUP;
+            cancelled = true;
+        }
         if (cancelled && !is_noticed && ends_when_stopped()) {
             is_noticed = true;
             wake_up.wait_for(time_to_answer);
@@ -206,6 +211,11 @@ void Terminal::watch(const std::stop_token& stop) {
         const auto again = writes_lines_ ? write_again : draw_again;
         if (shows_progress_ && !last_.what.empty() && now - drawn_ >= again) draw_line(now);
     }
+}
+
+bool Terminal::has_lost_reader() const {
+    const std::lock_guard lock(changing_);
+    return writes_lines_ && has_hung_up(STDERR_FILENO);
 }
 
 void Terminal::end_at_once() {
@@ -240,7 +250,7 @@ int Terminal::cancel_code() {
 }
 
 bool Terminal::is_gone() const {
-    return std::any_of(terminals_.begin(), terminals_.end(), has_hung_up);
+    return has_lost_reader() || std::any_of(terminals_.begin(), terminals_.end(), has_hung_up);
 }
 
 bool Terminal::is_output_lost() {

@@ -50,7 +50,7 @@ class Terminal {
 
     void set_quiet();
     // From now on stderr holds a JSON document a line: how far work is, messages, warnings and errors
-    // (docs/user/troubleshooting.md).
+    // (docs/user/troubleshooting.md). Where its reader is gone, what end_when_stopped() allows is stopped as by SIGHUP.
     void set_progress_json();
     // From now on contexts measure the time of stages.
     void set_timings();
@@ -73,7 +73,8 @@ class Terminal {
     static bool is_cancelled();
     // The exit code for the last signal: 130, 143 for SIGTERM, 129 for SIGHUP.
     static int cancel_code();
-    // One of standard input, output and error was a terminal at first, and that terminal is gone.
+    // One of standard input, output and error was a terminal at first, and that terminal is gone; or the reader of
+    // --progress json is.
     bool is_gone() const;
     // Something that was printed on stdout could not be written: the disk is full, or a limit of its size is reached.
     static bool is_output_lost();
@@ -87,6 +88,7 @@ class Terminal {
     void clear_line();
     void watch(const std::stop_token& stop);
     void end_at_once();
+    bool has_lost_reader() const;
 
     // Recursive, because the report of a stop is printed by the public functions.
     mutable std::recursive_mutex changing_;

@@ -29,7 +29,7 @@ constexpr int free_wrong_keys = 10;
 constexpr int most_wrong_keys_waiting = 8;
 constexpr Clock::duration ticket_life = 30s;
 constexpr Clock::duration idle_worker = 15min;
-constexpr auto watch_interval = 500ms;
+constexpr auto look_pause = 100ms;  // at least, between two looks at all projects
 
 }  // namespace
 
@@ -43,6 +43,7 @@ Console::Console(ConsoleOptions options)
           // Also the cell of a job that an earlier server has handed over.
           [this](const QueueEntry& entry) { return cell_at(entry.address, entry.address, {})->view(); },
           [this] { events_.publish("queue", to_json(ShownQueue{queue_.all()}), "queue"); }),
+      changes_(options_.folder),
       watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 Console::~Console() {
@@ -284,7 +285,9 @@ void Console::look_at_projects() {
         requests = requests_;
     }
     std::set<std::string> there;
-    for (const fs::path& folder : projects_in(options_.folder)) {
+    const std::vector<fs::path> folders = projects_in(options_.folder);
+    changes_.add(folders);
+    for (const fs::path& folder : folders) {
         const std::string id = id_of_name(folder.filename());
         there.insert(id);
         const std::uint64_t stamp = stamp_of(folder);
@@ -316,12 +319,11 @@ void Console::look_at_projects() {
 }
 
 void Console::watch(const std::stop_token& stop) {
-    std::mutex waiting;
-    std::unique_lock lock(waiting);
+    const std::stop_callback end(stop, [this] { changes_.stop(); });
     while (!stop.stop_requested()) {
         look_at_projects();
         workers_.end_idle(idle_worker);
-        watched_.wait_for(lock, stop, watch_interval, [] { return false; });
+        if (changes_.wait(options_.look_interval)) std::this_thread::sleep_for(look_pause);
     }
 }
 

@@ -22,6 +22,7 @@
 #include "app/console/cells/dispatch_queue.h"
 #include "app/console/command_words.h"
 #include "app/console/console_state.h"
+#include "app/console/folder_watch.h"
 #include "app/console/http/event_log.h"
 #include "app/console/http/http_server.h"
 #include "app/console/http/kept_answers.h"
@@ -48,10 +49,13 @@ struct ConsoleOptions {
     std::optional<std::filesystem::path> drop;  // where it fetches job files; nothing: they go over the link
     // A line of docs/user/cell-sim.md, to the simulated cell of this server; empty: it has none.
     std::function<void(const std::string&)> tell_simulator = {};
+    // How often projects are looked at where nothing tells of their changes.
+    std::chrono::milliseconds look_interval = std::chrono::seconds(2);
 };
 
 class Console {
  public:
+    // Throws InputError (busy) where another server hands over jobs of this folder.
     explicit Console(ConsoleOptions options);
     ~Console();  // ends work and workers
     Console(const Console&) = delete;
@@ -169,12 +173,14 @@ class Console {
 
     std::map<std::string, Plan> plans_;
     std::map<std::string, std::shared_ptr<CellLine>> cells_;  // by their ids
+    // Name and id of the cell at an address, by the first cell file that has named it.
+    std::map<std::string, std::pair<std::string, std::uint16_t>> described_cells_;
     std::size_t handed_over_ = 0;
 
     WorkerProcesses workers_;
     Works works_;
     DispatchQueue queue_;
-    std::condition_variable_any watched_;
+    FolderWatch changes_;
     std::jthread watcher_;  // the last member: it ends before the others
 };
 

@@ -14,6 +14,7 @@
 #include "app/dispatch/state_folder.h"
 #include "app/report/cell/journal_report.h"
 #include "base/error.h"
+#include "base/files/file.h"
 #include "cam/cell/cell.h"
 
 namespace qchopper {
@@ -53,7 +54,23 @@ std::shared_ptr<CellLine> Console::cell_of_project(const fs::path& project) {
     if (!fs::exists(file, error)) return {};
     const Cell described = read_cell(file);
     if (!described.link.to) return {};
-    return cell_at(*described.link.to, described.name, file);
+    const std::string& address = *described.link.to;
+    // A copy, because the cell stays where a project goes.
+    const fs::path kept = options_.scratch / (id_of_name(address) + ".toml");
+    {
+        const std::lock_guard lock(changing_);
+        const auto [known, is_new] = described_cells_.try_emplace(address, described.name, described.id);
+        const auto& [name, id] = known->second;
+        if (name != described.name || id != described.id) {
+            throw InputError(InputFault::config,
+                             "the cell at " + address + " is cell " + std::to_string(described.id) + ", " +
+                                 described.name + ", by the cell file of this project, and cell " + std::to_string(id) +
+                                 ", " + name + ", by that of another one",
+                             "correct the cell file that is wrong, then start the server again");
+        }
+        if (is_new) write_file(kept, read_file(file, settings_limit));
+    }
+    return cell_at(address, described.name, kept);
 }
 
 HttpAnswer Console::plan(const std::string& id, const HttpRequest& request) {

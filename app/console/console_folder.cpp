@@ -12,6 +12,7 @@
 #include "app/console/worker/resident_project.h"
 #include "app/store/decisions.h"
 #include "app/store/project_folder.h"
+#include "app/store/project_json.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/sha256.h"
@@ -26,7 +27,6 @@ constexpr std::size_t id_digits = 16;
 constexpr std::size_t longest_name = 80;         // characters
 constexpr std::size_t longest_name_bytes = 200;  // of the 255 of a file name
 constexpr std::array scan_endings{".ply", ".stl", ".obj", ".off", ".glb", ".gltf", ".3mf"};
-constexpr std::array stage_words{"cutting", "cut", "done"};  // in the order of Stage
 
 // First and last code of what is no letter of a name beyond ASCII, by the blocks of Unicode 15: controls and signs of
 // Latin-1, soft hyphen among them; characters that fill without being seen; spaces, marks of direction and punctuation;
@@ -79,7 +79,7 @@ ListedProject listed(const fs::path& path) {
     ListedProject entry{id_of_name(path.filename()), path.filename(), {}, 0, 0, {}, {}};
     try {
         const Project project = load_project(path);
-        entry.stage = stage_words[static_cast<std::size_t>(project.stage)];
+        entry.stage = names_of(project.stage)(project.stage);
         entry.cuts = project.cuts.size();
         entry.pieces = project.pieces.size();
         entry.scan = project.scan.path.filename();
@@ -131,7 +131,7 @@ ProjectSummary summary_of(const fs::path& folder) {
     summary.name = folder.filename();
     summary.revision = revision_of_project(folder);
     const Project project = load_project(folder);
-    summary.stage = stage_words[static_cast<std::size_t>(project.stage)];
+    summary.stage = names_of(project.stage)(project.stage);
     summary.undo = undo_text(project.history);
     summary.redo = redo_text(project.history);
     summary.writer = writer_of(folder);

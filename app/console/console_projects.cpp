@@ -2,11 +2,13 @@
 // SHA-256 of project.json.
 
 #include <algorithm>
+#include <array>
 
 #include "app/console/command_words.h"
 #include "app/console/console.h"
 #include "app/console/console_answers.h"
 #include "app/console/console_folder.h"
+#include "app/console/http/content_type.h"
 #include "app/console/worker/console_requests.h"
 #include "app/console/worker/resident_project.h"
 #include "app/console/worker/shown_pieces.h"
@@ -24,21 +26,15 @@ namespace fs = std::filesystem;
 constexpr const char* sheet_policy =
     "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:";
 
-// Files of jobs by their endings; text for all others.
-struct TypeOfEnding {
-    const char* ending;
-    const char* type;
-};
-constexpr TypeOfEnding job_types[] = {
-    {".html", "text/html; charset=utf-8"}, {".png", "image/png"}, {".json", "application/json; charset=utf-8"},
-    {".glb", "model/gltf-binary"},         {".stl", "model/stl"}, {"", "text/plain; charset=utf-8"}};
+// Files of a project that a page may ask for by name.
+constexpr std::array outputs{"guide.html", "guide.pdf", "guide.glb"};
 
-struct OutputRow {
-    const char* name;
-    const char* type;
-};
-constexpr OutputRow output_rows[] = {
-    {"guide.html", "text/html; charset=utf-8"}, {"guide.pdf", "application/pdf"}, {"guide.glb", "model/gltf-binary"}};
+// A file that was made of a scan, with the policy of sheets.
+HttpAnswer file_answer(const std::string& name, const Bytes& bytes) {
+    return {200,
+            {{"Content-Type", std::string(content_type(name))}, {"Content-Security-Policy", sheet_policy}},
+            std::string(bytes.begin(), bytes.end())};
+}
 
 }  // namespace
 
@@ -126,21 +122,14 @@ HttpAnswer Console::job_file(const std::string& project, const std::string& job,
     const std::map<std::string, Bytes> files = unzip(read_file(file, job_limit), file.filename().string());
     const auto found = files.find(name);
     if (found == files.end()) return refusal(404, "the job " + job + " has no file " + name);
-    const auto* const row =
-        std::ranges::find_if(job_types, [&](const TypeOfEnding& r) { return name.ends_with(r.ending); });
-    HttpAnswer answer{200, {{"Content-Type", row->type}}, std::string(found->second.begin(), found->second.end())};
-    answer.fields.emplace_back("Content-Security-Policy", sheet_policy);
-    return answer;
+    return file_answer(name, found->second);
 }
 
 HttpAnswer Console::output(const std::string& project, const std::string& name) const {
-    const auto* const row =
-        std::ranges::find(output_rows, name, [](const OutputRow& r) { return std::string(r.name); });
-    if (row == std::end(output_rows)) return refusal(404, "a project has no output " + name);
-    const Bytes bytes = read_file(project_folder(project) / name, scan_limit);
-    HttpAnswer answer{200, {{"Content-Type", row->type}}, std::string(bytes.begin(), bytes.end())};
-    answer.fields.emplace_back("Content-Security-Policy", sheet_policy);
-    return answer;
+    if (std::ranges::find(outputs, name) == outputs.end()) {
+        return refusal(404, "a project has no output " + name);
+    }
+    return file_answer(name, read_file(project_folder(project) / name, scan_limit));
 }
 
 HttpAnswer Console::display(const std::string& id, bool is_mesh) const {

@@ -62,9 +62,6 @@ bool belongs_to(const BeamState& beam, const History& history) {
 
 }  // namespace
 
-constexpr auto names_of(Stage) {
-    return EnumNames<Stage, 3>{{{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}}};
-}
 constexpr auto names_of(EndReason) {
     return EnumNames<EndReason, 6>{{{EndReason::rules_hold, "rules_hold"},
                                     {EndReason::no_rule, "no_rule"},

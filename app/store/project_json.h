@@ -9,8 +9,13 @@
 #include <string_view>
 
 #include "app/store/project.h"
+#include "base/enum_names.h"
 
 namespace qchopper {
+
+constexpr auto names_of(Stage) {
+    return EnumNames<Stage, 3>{{{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}}};
+}
 
 std::string to_json(const Project& project);
 

@@ -129,6 +129,11 @@ DispatchQueue::DispatchQueue(fs::path folder, std::function<CellView(const Queue
                              std::function<void()> on_change)
     : folder_(std::move(folder)), cell_(std::move(cell)), on_change_(std::move(on_change)) {
     fs::create_directories(folder_);
+    if (const std::optional<std::string> holder = writer_of(folder_)) {
+        throw InputError(InputFault::busy, "another server of this folder is running: " + *holder,
+                         "open its link, or end it; one that only shows may be started beside it");
+    }
+    lock_.emplace(folder_);
     read_kept();
     runner_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/console/cells/cell_view.h"
+#include "app/store/project_folder.h"
 #include "base/enum_names.h"
 #include "base/json_fields.h"
 
@@ -73,6 +74,7 @@ QueueEntry ended_by(QueueEntry entry, const std::string& output);
 class DispatchQueue {
  public:
     // `folder` keeps what was begun and what the processes print; it is made. `cell`: how a cell stands.
+    // Throws InputError (busy) where another server holds the folder, with its process and start.
     DispatchQueue(std::filesystem::path folder, std::function<CellView(const QueueEntry&)> cell,
                   std::function<void()> on_change);
     ~DispatchQueue();  // what runs goes on
@@ -97,6 +99,7 @@ class DispatchQueue {
     void read_kept();
 
     const std::filesystem::path folder_;
+    std::optional<ProjectLock> lock_;  // one server hands over and follows
     const std::function<CellView(const QueueEntry&)> cell_;
     const std::function<void()> on_change_;
     mutable std::mutex changing_;

@@ -26,13 +26,21 @@ HttpAnswer KeptAnswers::answer(const std::string& id, const Sha256& request, con
         kept.answer = made;
         kept.is_made = true;
         order_.push_back(id);
-        if (order_.size() > most_) {
-            kept_.erase(order_.front());
-            order_.pop_front();
-        }
+        bytes_ += made.body.size();
+        drop_old();
     }
     made_.notify_all();
     return made;
+}
+
+// Precondition: it is locked.
+void KeptAnswers::drop_old() {
+    while (order_.size() > most_ || (order_.size() > 1 && bytes_ > most_bytes_)) {
+        const auto oldest = kept_.find(order_.front());
+        bytes_ -= oldest->second.answer.body.size();
+        kept_.erase(oldest);
+        order_.pop_front();
+    }
 }
 
 }  // namespace qchopper

@@ -19,7 +19,8 @@ namespace qchopper {
 
 class KeptAnswers {
  public:
-    explicit KeptAnswers(std::size_t kept = 1000) : most_(kept) {}
+    // The newest so many answers are kept, as far as their bodies are not more bytes together; the newest one always.
+    explicit KeptAnswers(std::size_t kept = 1000, std::size_t bytes = 32'000'000) : most_(kept), most_bytes_(bytes) {}
 
     // The answer that was made for this id, or the one that `make` makes now; one that is being made is waited for.
     // `request`: the bytes that the id stands for. An id with another request is answered with `conflict`.
@@ -33,7 +34,11 @@ class KeptAnswers {
         HttpAnswer answer = {};
     };
 
+    void drop_old();
+
     std::size_t most_;
+    std::size_t most_bytes_;
+    std::size_t bytes_ = 0;  // of the bodies of those that are made
     std::mutex changing_;
     std::condition_variable made_;
     std::map<std::string, Kept> kept_;

@@ -18,6 +18,7 @@
 #include "app/report/notices.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
+#include "app/store/project_json.h"
 #include "base/enum_names.h"
 #include "base/error.h"
 #include "base/json_fields.h"
@@ -57,8 +58,6 @@ JsonText text_of_document(const Document& document) {
 constexpr std::array fault_statuses{400U, 422U, 404U, 409U, 507U, 423U, 422U};  // in the order of InputFault
 static_assert(static_cast<std::size_t>(InputFault::config) + 1 == std::size(fault_statuses));
 
-constexpr std::array stages{"cutting", "cut", "done"};  // in the order of Stage
-
 Plane plane_of(const std::vector<double>& numbers) {
     return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
@@ -97,7 +96,7 @@ class Worker {
                     break;
             }
             const Project& project = open.project();
-            result.stage = stages[static_cast<std::size_t>(project.stage)];
+            result.stage = names_of(project.stage)(project.stage);
             result.undo = text_or_nothing(undo_text(project.history));
             result.redo = text_or_nothing(redo_text(project.history));
             result.decisions = project.history.committed;

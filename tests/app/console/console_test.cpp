@@ -29,7 +29,7 @@ struct ConsoleTest : ::testing::Test {
     int made = 0;
 
     void SetUp() override { start(false); }
-    void start(bool is_read_only) {
+    void start(bool is_read_only, std::chrono::milliseconds look_interval = 2s) {
         ConsoleOptions options;
         options.folder = p.folder.path;
         options.rules = {key, {"a"}, is_read_only};
@@ -38,6 +38,7 @@ struct ConsoleTest : ::testing::Test {
         options.server = "5e1f";
         options.scratch = scratch.path;
         options.queue = scratch.path / "queue";
+        options.look_interval = look_interval;
         console.reset();
         console = std::make_unique<Console>(std::move(options));
     }
@@ -206,6 +207,60 @@ TEST_F(ConsoleTest, ADecisionOfThePageIsToldAsThePages) {
         ++names;
     }
     EXPECT_LE(names, 5U + 3U) << "5 of the page, and of the command line that it writes, what, and that it is done";
+}
+
+TEST_F(ConsoleTest, ADecisionOfTheCommandLineIsToldWithoutALookAtIntervals) {
+    start(false, 1h);
+    const auto is_seen = [&] { return json_of(get("/api/state")).at("projects").size() == 1; };
+    const Clock::time_point until = Clock::now() + 60s;
+    while (!is_seen() && Clock::now() < until) std::this_thread::sleep_for(10ms);
+    ASSERT_TRUE(is_seen());
+    HttpAnswer stream = get("/api/events?after=" + json_of(get("/api/state")).at("event").get<std::string>());
+    for (int i = 0; i < 3; ++i) {
+        WorkedProject::command({"segment", p.project.string(), "--weights", "fragility=" + std::to_string(7 + i)});
+        std::string text;
+        const Clock::time_point limit = Clock::now() + 60s;
+        while (Clock::now() < limit && text.find(p.revision()) == std::string::npos) {
+            text += stream.next_part(250ms).value_or("");
+        }
+        EXPECT_NE(text.find(R"("by":"command line")"), std::string::npos) << text;
+        EXPECT_NE(text.find(p.revision()), std::string::npos) << text;
+    }
+    const ProjectLock lock(p.project);
+    const auto has_writer = [&] { return json_of(get("/api/state")).at("projects").at(0).at("writer").is_string(); };
+    const Clock::time_point end = Clock::now() + 60s;
+    while (!has_writer() && Clock::now() < end) std::this_thread::sleep_for(10ms);
+    EXPECT_TRUE(has_writer()) << "who writes it is told too";
+}
+
+TEST_F(ConsoleTest, TwoCellFilesThatNameOneAddressForTwoCellsAreRefusedClearly) {
+    std::ifstream file(std::string(QCHOPPER_SOURCE_DIR) + "/cells/foam-1.toml");
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    const auto with_id = [&](const std::string& id) {
+        const std::size_t at = text.find("\nid = ") + 6;
+        std::string changed = text.substr(0, at) + id + text.substr(text.find('\n', at));
+        const std::string port = ":15020";
+        return changed.replace(changed.find(port), port.size(), ":9");
+    };
+    ASSERT_NE(text.find("\nid = "), std::string::npos);
+    const fs::path other = p.folder.path / "q.qch";
+    fs::copy(p.project, other, fs::copy_options::recursive);
+    write_file(p.project / "cell.toml", with_id("41"));
+    start(false);
+    const auto plan = [&](const std::string& name) {
+        return post("/api/projects/" + id_of_name(name) + "/plans", "{}", p.revision());
+    };
+    EXPECT_EQ(plan("p.qch").status, 502U) << "nobody answers there";
+    write_file(other / "cell.toml", with_id("42"));
+    const HttpAnswer refused = plan("q.qch");
+    EXPECT_EQ(refused.status, 422U) << refused.body;
+    EXPECT_NE(refused.body.find("cell 42"), std::string::npos) << refused.body;
+    EXPECT_NE(refused.body.find("cell 41"), std::string::npos) << refused.body;
+    write_file(other / "cell.toml", with_id("41"));
+    fs::remove_all(p.project);
+    EXPECT_EQ(post("/api/projects/" + id_of_name("q.qch") + "/plans", "{}", "0").status, 502U)
+        << "the same cell, known also without the project that named it first";
+    EXPECT_EQ(json_of(get("/api/state")).at("cells").size(), 1U);
 }
 
 TEST_F(ConsoleTest, WhileAnotherProgramWritesNothingIsDecided) {

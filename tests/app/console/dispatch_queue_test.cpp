@@ -4,10 +4,12 @@
 #include "app/console/cells/dispatch_queue.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "app/dispatch/dispatch_project.h"
+#include "base/error.h"
 #include "base/files/temporary_folder.h"
 #include "devices/journal/job_outcome.h"
 
@@ -154,6 +156,22 @@ TEST_F(Queue, WhatEndedWhileNobodyFollowedIsReadFromItsOutput) {
     const auto q = queue();
     EXPECT_TRUE(comes_to(*q, {EntryState::ended}));
     EXPECT_EQ(q->all().front().why, "complete");
+}
+
+TEST_F(Queue, AnotherServerOfTheFolderIsRefusedWithWhoHoldsIt) {
+    auto q = queue();
+    q->pause();
+    q->add({entry("A", printed("STARTED", true, ""))});
+    try {
+        const auto second = queue();
+        ADD_FAILURE() << "two servers hand over";
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.fault, InputFault::busy);
+        EXPECT_NE(std::string(e.what()).find("process " + std::to_string(::getpid())), std::string::npos) << e.what();
+    }
+    EXPECT_EQ(states(*q), std::vector{EntryState::waiting}) << "nothing was taken from it";
+    q.reset();
+    EXPECT_EQ(states(*queue()), std::vector{EntryState::not_handed_over});
 }
 
 TEST_F(Queue, OtherFilesOfItsFolderAreLeftAlone) {

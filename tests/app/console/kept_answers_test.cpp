@@ -79,5 +79,35 @@ TEST(KeptAnswers, AThousandAreKept) {
     EXPECT_EQ(counted.made, 1002);
 }
 
+TEST(KeptAnswers, AsManyBytesAreKeptAndTheNewestAnswerInAnyCase) {
+    KeptAnswers kept(1000, 1000);
+    int made = 0;
+    const auto ask = [&](const std::string& id, std::size_t bytes) {
+        return kept.answer(
+            id, hash_of(id),
+            [&] {
+                ++made;
+                return json_answer(200, std::string(bytes, 'x'));
+            },
+            conflict);
+    };
+    for (int i = 0; i < 10; ++i) ask("small-" + std::to_string(i), 100);
+    for (int i = 0; i < 10; ++i) ask("small-" + std::to_string(i), 100);
+    EXPECT_EQ(made, 10) << "1,000 bytes are kept";
+    ask("middle", 250);
+    EXPECT_EQ(made, 11);
+    ask("small-3", 100);
+    EXPECT_EQ(made, 11) << "of the oldest three go, and no more";
+    ask("small-2", 100);
+    EXPECT_EQ(made, 12);
+    ask("big", 5000);
+    ask("big", 5000);
+    EXPECT_EQ(made, 13) << "an answer that is sent again is never made again at once";
+    ask("middle", 250);
+    EXPECT_EQ(made, 14) << "all others went for it";
+    ask("big", 5000);
+    EXPECT_EQ(made, 15) << "and it for the next one";
+}
+
 }  // namespace
 }  // namespace qchopper

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <mutex>
@@ -41,6 +42,12 @@ struct WorkedProject {
     }
     std::string revision() const { return revision_of_project(project); }
 };
+
+// How often a test of kills kills: 20 times, or as QCHOPPER_KILLS says.
+inline int kills_wanted() {
+    const char* const wanted = std::getenv("QCHOPPER_KILLS");
+    return wanted == nullptr ? 20 : std::stoi(wanted);
+}
 
 // Of an answer with a plane: cut by the k-th plane that a rank question has listed.
 inline std::string accept_body(const Json& ranked, std::size_t k) {

@@ -130,7 +130,7 @@ TEST_F(Workers, AKillAtAnyMomentLeavesEachDecisionWholeOrNotAtAll) {
     std::mt19937 random(7);
     int answered = 0;
     int lost = 0;
-    for (int kills = 0; kills < 20; ++kills) {
+    for (int kills = 0; kills < kills_wanted(); ++kills) {
         ASSERT_EQ(show(p).status, 200U);
         const std::vector<pid_t> worker = workers_of(p.project);
         ASSERT_EQ(worker.size(), 1U);
