@@ -111,7 +111,7 @@ const inQueue = (page, words) => page.getByRole("table", { name: "Queue" }).getB
 // The server is killed, is missed by the page, and is there again with another identity: the window asks for its link.
 async function killAndComeBack(page) {
   await server.kill();
-  await page.getByText(/The server does not answer|The server is silent/).first().waitFor({ timeout: 15_000 });
+  await page.getByText(/The server does not answer|The server is silent/).first().waitFor();
   await start();
   await page.getByText("The server was started again and has a new key. Open the link that it printed.").waitFor();
   const address = await page.evaluate(() => location.hash.slice(2));
@@ -185,13 +185,13 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await keys.press(page.getByRole("link", { name: "Jobs" }));
   await keys.press(keys.button("Prepare"));
   const choice = page.getByRole("checkbox", { name: /^Hand over piece / }).first(); // of what Prepare may have cut further
-  await choice.waitFor({ timeout: 120_000 });
+  await choice.waitFor();
   const piece = (await choice.getAttribute("aria-label")).split(" ").at(-1);
   await keys.press(keys.button("Dry run"));
-  await page.getByText("Dry run: every job ran to its end").waitFor({ timeout: 120_000 });
+  await page.getByText("Dry run: every job ran to its end").waitFor();
   if (pictures) {
     await keys.press(page.getByRole("link", { name: "Pieces" }));
-    await page.locator("canvas[data-arrows]:not([data-arrows='0'])").waitFor({ timeout: 60_000 });
+    await page.locator("canvas[data-arrows]:not([data-arrows='0'])").waitFor();
     await page.keyboard.press("f");
     await keys.picture("pieces");
     await keys.press(page.getByRole("link", { name: "Jobs" }));
@@ -223,7 +223,7 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   // The guide.
   await keys.press(page.getByRole("link", { name: "Guide" }));
   await keys.press(keys.button("Make the guide"));
-  await page.getByText(/The guide is made: \d+ pieces/).waitFor({ timeout: 120_000 });
+  await page.getByText(/The guide is made: \d+ pieces/).waitFor();
   await keys.picture("guide");
   const popup = page.waitForEvent("popup");
   await keys.press(keys.button("Open to print"));

@@ -74,7 +74,7 @@ windowTest("After a reset the page reads the state: what it has missed is shown"
   isForgotten = true;
   server.server.kill("SIGSTOP");
   server.run("segment", "a.qch", "--redo"); // while the page hears nothing
-  await page.getByText(/The server is silent/).waitFor({ timeout: 15_000 });
+  await page.getByText(/The server is silent/).waitFor();
   await page.waitForTimeout(6000); // until its stream is given up, ten seconds after the last event
   server.server.kill("SIGCONT");
   await page.getByRole("button", { name: "Undo cut 1 on piece A" }).waitFor();

@@ -35,7 +35,7 @@ const axesInTable = (page) => page.getByRole("table", { name: /^Tool orientation
 async function compared(page, piece) {
   await page.getByRole("button", { name: new RegExp(`^${piece} `) }).click();
   await page.getByRole("button", { name: "Compare all bases" }).click();
-  await page.getByRole("table", { name: `Bases of piece ${piece}` }).waitFor({ timeout: 60_000 });
+  await page.getByRole("table", { name: `Bases of piece ${piece}` }).waitFor();
 }
 
 windowTest("Each tool orientation has an arrow and a row, of the base in force and of one that is looked at", server, async (keep) => {
@@ -87,7 +87,7 @@ windowTest("Fewer orientations are a decision, which is shown, undone, and left 
   assert.equal(await page.getByRole("button", { name: "Give a whole number" }).isDisabled(), true);
   await most.fill("1");
   await page.getByRole("button", { name: "Take at most 1", exact: true }).click();
-  await page.getByText("The setup of piece B is changed.").waitFor({ timeout: 60_000 });
+  await page.getByText("The setup of piece B is changed.").waitFor();
   assert.deepEqual(setupsOf("B").ordered, { base_number: null, max_directions: 1, tools: null });
   await compared(page, "B");
   await page.getByText("By decision: at most 1 tool orientation.").waitFor();
