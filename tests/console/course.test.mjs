@@ -20,7 +20,7 @@ let cell; // the process of the simulated cell, which outlives the server
 let cellAddress;
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", FACES, "-o", "a.ply");
+  server.run("sample", "femur", "--faces", FACES, "-o", "a.ply");
   copyFileSync(new URL("../../cells/foam-1.toml", import.meta.url), join(server.projects, "foam-1.toml"));
   mkdirSync(join(server.folder, "drop"));
   writeFileSync(join(server.folder, "key"), "0123456789abcdef0123456789abcdef\n", { mode: 0o600 });
@@ -36,7 +36,7 @@ after(async () => {
 });
 
 async function startCell() {
-  cell = spawn(program, ["cell-sim", "--listen", "127.0.0.1:0", "--consent", "ask", "--drop", join(server.folder, "drop"), "--speed", "40", "--json"], {
+  cell = spawn(program, ["cell-sim", "--listen", "127.0.0.1:0", "--consent", "ask", "--drop", join(server.folder, "drop"), "--speed", "2000", "--json"], {
     env: server.env(),
     stdio: ["pipe", "pipe", "ignore"],
   });
@@ -106,6 +106,13 @@ class Keys {
   }
 }
 
+// The person at the cell says yes as soon as it asks, which the page may show a moment before or after.
+async function consent(page, words) {
+  const seen = inQueue(page, words);
+  const asked = setInterval(() => cell.stdin.write("consent yes\n"), 500);
+  await seen.finally(() => clearInterval(asked));
+}
+
 const inQueue = (page, words) => page.getByRole("table", { name: "Queue" }).getByRole("cell", { name: words }).first().waitFor();
 
 // The server is killed, is missed by the page, and is there again with another identity: the window asks for its link.
@@ -160,12 +167,15 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await page.waitForURL(/#\/cut\//);
   await page.locator(".planes:not(.provisional) tbody tr").first().waitFor();
 
-  // Cut by the table; weights; undo; the server is killed, and what was answered is there.
+  // Cut by a plane of the table that is moved; weights; undo; the server is killed, and what was answered is there.
   await keys.to(page.locator(".planes input[type=radio]"));
   await page.keyboard.press("ArrowDown");
   await page.getByText("Exact.").waitFor();
+  await page.keyboard.press("]");
+  await keys.button("Accept this plane").waitFor();
+  await page.getByText("Exact.").waitFor();
   await keys.picture("cut");
-  await keys.press(keys.button("Accept plane 2"));
+  await keys.press(keys.button("Accept this plane"));
   await keys.button("Undo cut 1 on piece A").waitFor();
   await killAndComeBack(page);
   await keys.button("Undo cut 1 on piece A").waitFor();
@@ -204,16 +214,13 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await keys.press(keys.button("Hand over, simulated"));
   await inQueue(page, /asks at the cell/);
   await keys.picture("jobs");
-  cell.stdin.write("consent yes\n"); // the person at the cell
-  await inQueue(page, /carving/);
+  await consent(page, /carving/);
   await page.keyboard.press("F9");
   await inQueue(page, /held/);
   await killAndComeBack(page);
   await inQueue(page, /held/);
   await keys.press(keys.button("Resume"));
-  await page.waitForTimeout(1000); // until the cell asks
-  cell.stdin.write("consent yes\n");
-  await inQueue(page, /carving/);
+  await consent(page, /carving|ended/);
   await inQueue(page, /ended/);
   const carved = page.getByRole("table", { name: "Jobs of the journals of cells" }).getByRole("row").nth(1);
   await carved.getByText("complete").waitFor();

@@ -109,7 +109,6 @@ export const WORK_NAMES: Record<string, string> = {
   dry_run: "Dry run",
   export: "Export",
   guide: "Make the guide",
-  replay: "Replay",
 };
 
 export const workName = (kind: string): string => WORK_NAMES[kind] ?? titled(kind);
