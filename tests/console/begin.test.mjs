@@ -79,7 +79,8 @@ windowTest("A name in any script is taken, and a wrong one is refused at once wi
   await checked(page, "a.ply");
   const name = page.getByRole("textbox", { name: "Name of the project" });
   const begin = page.getByRole("button", { name: "Begin" });
-  assert.equal(await name.inputValue(), "a 2", "a free one is proposed");
+  // A free one is proposed, as soon as it is known which are taken.
+  await page.waitForFunction((input) => input.value === "a 2", await name.elementHandle());
   for (const [typed, sentence] of [["a", "A project of this name is there already."], ["../a", "Let the name begin with a letter or a digit."], ["a/b", "Leave out “/”"], ["a\u202eb", "Leave out the character U+202E"], ["x".repeat(81), "Give the project a shorter name."]]) {
     await name.fill(typed);
     await page.getByText(sentence).waitFor();
