@@ -102,6 +102,17 @@ std::vector<NamedChoice> preset_choices() {
     return choices;
 }
 
+// Of the jobs of this folder alone: another server shows and follows its own. One that only shows has `empty`, so that
+// a server that hands over may be started before and after it.
+fs::path queue_folder(const fs::path& folder, const fs::path& empty, Terminal& terminal) {
+    fs::path own = state_folder() / "console" / id_of_name(folder.string());
+    if (empty.empty()) return own;
+    if (const std::optional<std::string> other = writer_of(own)) {
+        terminal.message("Another server of this folder hands its jobs over, and shows them: " + *other + ".");
+    }
+    return empty / "queue";
+}
+
 }  // namespace
 
 int run(const ServeArguments& arguments, Terminal& terminal) {
@@ -126,12 +137,7 @@ int run(const ServeArguments& arguments, Terminal& terminal) {
     options.presets = preset_choices();
     const TemporaryFolder scratch("qchopper-console-");
     options.scratch = scratch.path();
-    // Of this folder alone: another server shows and follows its own jobs.
-    options.queue = state_folder() / "console" / id_of_name(options.folder.string());
-    if (const std::optional<std::string> other = writer_of(options.queue); other && arguments.is_read_only) {
-        terminal.message("Another server of this folder hands its jobs over, and shows them: " + *other + ".");
-        options.queue = scratch.path() / "queue";
-    }
+    options.queue = queue_folder(options.folder, arguments.is_read_only ? scratch.path() : fs::path(), terminal);
     options.to = arguments.to;
     options.drop = arguments.drop;
     std::optional<SimulatedCell> simulator;

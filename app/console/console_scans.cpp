@@ -120,8 +120,8 @@ std::optional<HttpAnswer> Console::write_plan(const std::string& project, const 
     const fs::path folder = project_folder(project);
     const ChildOutput made = run_child(words(plan_words(folder, file)), mesh_limit);
     if (made.code == 0) return {};
-    if (made.code == busy_code) return refusal(423, "another program writes that project", "try again when it is done");
-    return refusal(422, "the cuts of that project cannot be read", "look at that project");
+    if (made.out.empty()) return refusal(422, "the cuts of that project could not be read", "try again");
+    return json_answer(made.code == busy_code ? 423 : 422, made.out);  // the error document of the command
 }
 
 }  // namespace qchopper

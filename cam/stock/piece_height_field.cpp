@@ -123,8 +123,8 @@ void raise_under(HeightField& map, const StripPart& triangle) {
 void raise_to_mesh(HeightField& map, const TriangleMesh& mesh) {
     parallel_ranges(0, mesh.triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
-            StripPart triangle;
             if (rotate(map.piece_in_field, area_vector(mesh, t)).z < 0) continue;
+            StripPart triangle;
             for (const auto index : mesh.triangles[t]) {
                 const Vec3 p = apply(map.piece_in_field, mesh.points[index]);
                 triangle.add({p.x / map.cell, p.y / map.cell, p.z});

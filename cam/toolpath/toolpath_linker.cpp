@@ -108,8 +108,9 @@ double ToolpathLinker::limit_at(Vec3 p) const {
     return is_raised ? std::max(limit, of_tool) : of_tool;
 }
 
-// At least limit_at(). Between the centres of four cells the tool stands nowhere higher than over the highest of them:
-// it is lowest where it is farthest from what raises it, and no point that a cell counts as lies between two centres.
+// At least limit_at(). Between the centres of four cells the tool stands nowhere higher than over one of them: a cell
+// raises it the more, the nearer it is, and counts as a square around its own centre, to which of all places between
+// two centres one of the two is the nearest (tests/cam/stock/cl_surface_test.cpp, NoHeightBetweenFourMiddles...).
 double ToolpathLinker::highest_limit_around(Vec3 p) const {
     const HeightField& cl = *space_->cl_limit;
     if (!space_->is_limit_between) return static_cast<double>(cl.height_under(p.x, p.y));

@@ -12,15 +12,13 @@ let browser;
 let project;
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", "3000", "-o", "a.ply");
-  server.run("segment", "a.ply", "--units", "mm", "-o", "a.qch");
+  server.makeProject(3000, false);
   server.run("segment", "a.qch", "--plane", "1,0,0,0");
   server.run("segment", "a.qch", "--weights", "fragility=11");
   writeFileSync(join(server.projects, "boxes.stl"), boxes([100, 40, 20, 2]));
   await server.start();
   browser = await launch();
-  const headers = { Authorization: `Bearer ${new URL(server.link).hash.slice("#key=".length)}` };
-  project = (await (await fetch(`${server.origin}/api/files`, { headers })).json()).projects[0].id;
+  project = await server.projectId("a.qch");
 });
 
 after(async () => {

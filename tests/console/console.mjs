@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -22,10 +22,10 @@ export const program = process.env.QCHOPPER ?? join(root, "build/release/qchoppe
 const browserProgram = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const failures = join(root, "build/console/failures");
 
-// llvmpipe: three to five times faster than Chromium's own renderer.
 // Of whatever a test waits for: for a machine with much else to do. What has to be quick is measured apart.
 const LIMIT_MS = 120_000;
 
+// llvmpipe: three to five times faster than Chromium's own renderer.
 const ARGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"];
 
 export class Console {
@@ -48,6 +48,20 @@ export class Console {
       assert.ok(status === 0 || status === 1, `${words.join(" ")}: ${status}\n${stderr}`);
       return JSON.parse(stdout);
     }
+  }
+
+  // The project a.qch of a sample vertebra, of foam-1 with `isOfCell`.
+  makeProject(faces, isOfCell = true) {
+    this.run("sample", "vertebra", "--faces", String(faces), "-o", "a.ply");
+    if (isOfCell) copyFileSync(join(root, "cells/foam-1.toml"), join(this.projects, "foam-1.toml"));
+    this.run("segment", "a.ply", "--units", "mm", ...(isOfCell ? ["--cell", "foam-1.toml"] : []), "-o", "a.qch");
+  }
+
+  // The id of a project by which pages and requests name it.
+  async projectId(name) {
+    const headers = { Authorization: `Bearer ${new URL(this.link).hash.slice("#key=".length)}` };
+    const files = await (await fetch(`${this.origin}/api/files`, { headers })).json();
+    return files.projects.find((one) => one.name === name).id;
   }
 
   env() {

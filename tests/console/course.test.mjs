@@ -6,7 +6,7 @@
 
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
 
@@ -36,7 +36,7 @@ after(async () => {
 });
 
 async function startCell() {
-  cell = spawn(program, ["cell-sim", "--listen", "127.0.0.1:0", "--consent", "ask", "--drop", join(server.folder, "drop"), "--speed", "2000", "--json"], {
+  cell = spawn(program, ["cell-sim", "--listen", "127.0.0.1:0", "--consent", "ask", "--drop", join(server.folder, "drop"), "--speed", "4000", "--json"], {
     env: server.env(),
     stdio: ["pipe", "pipe", "ignore"],
   });

@@ -1,7 +1,7 @@
 // From Prepare to a job in the simulated cell that the server starts, which asks; Hold, Resume; the guide.
 
 import assert from "node:assert/strict";
-import { copyFileSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
 
@@ -12,14 +12,11 @@ let browser;
 let project;
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", "4000", "-o", "a.ply");
-  copyFileSync(new URL("../../cells/foam-1.toml", import.meta.url), join(server.projects, "foam-1.toml"));
-  server.run("segment", "a.ply", "--units", "mm", "--cell", "foam-1.toml", "-o", "a.qch");
+  server.makeProject(4000);
   server.run("segment", "a.qch", "--accept", "1");
   await server.start("127.0.0.1:0", "--cell-sim");
   browser = await launch();
-  const headers = { Authorization: `Bearer ${new URL(server.link).hash.slice("#key=".length)}` };
-  project = (await (await fetch(`${server.origin}/api/files`, { headers })).json()).projects[0].id;
+  project = await server.projectId("a.qch");
 });
 
 after(async () => {

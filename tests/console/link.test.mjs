@@ -10,12 +10,10 @@ let browser;
 let project;
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", "2000", "-o", "a.ply");
-  server.run("segment", "a.ply", "--units", "mm", "-o", "a.qch");
+  server.makeProject(2000, false);
   await server.start();
   browser = await launch();
-  const headers = { Authorization: `Bearer ${new URL(server.link).hash.slice("#key=".length)}` };
-  project = (await (await fetch(`${server.origin}/api/files`, { headers })).json()).projects[0].id;
+  project = await server.projectId("a.qch");
 });
 
 after(async () => {

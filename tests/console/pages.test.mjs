@@ -1,8 +1,6 @@
 // The pages in Chromium, against `qchopper serve`, with what the command line says of the same project as the reference.
 
 import assert from "node:assert/strict";
-import { copyFileSync } from "node:fs";
-import { join } from "node:path";
 import { after, before } from "node:test";
 
 import { assertAccessible, Console, launch, openWindow, windowTest } from "./console.mjs";
@@ -12,14 +10,10 @@ let browser;
 let project; // id of a.qch
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", "4000", "-o", "a.ply");
-  copyFileSync(new URL("../../cells/foam-1.toml", import.meta.url), join(server.projects, "foam-1.toml"));
-  server.run("segment", "a.ply", "--units", "mm", "--cell", "foam-1.toml", "-o", "a.qch");
+  server.makeProject(4000);
   await server.start();
   browser = await launch();
-  const headers = { Authorization: `Bearer ${new URL(server.link).hash.slice("#key=".length)}` };
-  const files = await (await fetch(`${server.origin}/api/files`, { headers })).json();
-  project = files.projects.find((one) => one.name.startsWith("a")).id;
+  project = await server.projectId("a.qch");
 });
 
 after(async () => {

@@ -1,8 +1,6 @@
 // The page Pieces: tool orientations as arrows, margins and bases are those of `setup --json`; fewer orientations are decided.
 
 import assert from "node:assert/strict";
-import { copyFileSync } from "node:fs";
-import { join } from "node:path";
 import { after, before } from "node:test";
 
 import { assertAccessible, Console, launch, openWindow, windowTest } from "./console.mjs";
@@ -12,14 +10,11 @@ let browser;
 let project;
 
 before(async () => {
-  server.run("sample", "vertebra", "--faces", "4000", "-o", "a.ply");
-  copyFileSync(new URL("../../cells/foam-1.toml", import.meta.url), join(server.projects, "foam-1.toml"));
-  server.run("segment", "a.ply", "--units", "mm", "--cell", "foam-1.toml", "-o", "a.qch");
+  server.makeProject(4000);
   server.run("segment", "a.qch", "--accept", "1");
   await server.start();
   browser = await launch();
-  const headers = { Authorization: `Bearer ${new URL(server.link).hash.slice("#key=".length)}` };
-  project = (await (await fetch(`${server.origin}/api/files`, { headers })).json()).projects[0].id;
+  project = await server.projectId("a.qch");
 });
 
 after(async () => {

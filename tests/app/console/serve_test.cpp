@@ -228,12 +228,15 @@ TEST(Serve, ASecondServerOfAFolderIsRefusedWithWhoServesItAndOneThatShowsIsNot) 
         program::run({"serve", p.folder.path.string(), "--listen", "127.0.0.1:0"}, {p.folder.path});
     EXPECT_EQ(second.code, exit_busy) << second.err;
     EXPECT_NE(second.err.find("serve, process "), std::string::npos) << second.err;
-    Process shows({"serve", p.folder.path.string(), "--listen", "127.0.0.1:0", "--read-only"}, {p.folder.path});
+    const std::vector<std::string> words{"serve", p.folder.path.string(), "--listen", "127.0.0.1:0", "--read-only"};
+    Process shows(words, {p.folder.path});
     EXPECT_TRUE(shows.waits_until_out("#key=")) << shows.err();
     server.process.signal(SIGKILL);
     server.process.wait(20);
+    Process alone(words, {p.folder.path});
+    EXPECT_TRUE(alone.waits_until_out("#key=")) << alone.err();
     Server third(p);
-    EXPECT_NE(third.port, 0) << "a kill leaves nothing locked";
+    EXPECT_NE(third.port, 0) << "neither a kill nor who only shows leaves anything locked";
 }
 
 TEST(Serve, WorkAndTheSimulatedCellEndWithAServerThatIsKilled) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -14,6 +15,7 @@
 #include "cam/setup/holder_clearance.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
+#include "segment/raster/bilinear_cell.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -181,6 +183,28 @@ TEST(ToolDilation, TellsHeightsBetweenTheMiddlesOfCellsToo) {
     HeightField raised = cl_surface(post, ball_tool(9), {0, 0.1});
     raised.height[0] += 1;
     EXPECT_FALSE(is_of_tool(raised, beside, 0));
+}
+
+TEST(ToolDilation, NoHeightBetweenFourMiddlesIsAboveAllOfTheirs) {
+    const TriangleMesh mesh = bumpy(40, 20, 50, 2);
+    const HeightField target = piece_height_field(setup_of(mesh, 8), mesh, 0, {1, -6, 0});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (const CuttingTool& tool : {ball_tool(9), flat_tool(9)}) {
+        for (const double border : {0.0, 0.1, 0.5}) {
+            const ToolDilation dilation(target, tool, {0.2, border});
+            const HeightField tip = cl_surface(target, tool, {0.2, border});
+            for (int k = 0; k < 3000; ++k) {
+                const double x = share(random) * static_cast<double>(tip.columns);
+                const double y = share(random) * static_cast<double>(tip.rows);
+                double highest = -std::numeric_limits<double>::infinity();
+                for (const std::size_t cell : BilinearCell(tip, x, y).cells) {
+                    highest = std::max(highest, static_cast<double>(tip.height[cell]));
+                }
+                ASSERT_LE(dilation.height(x, y), highest + 1e-4) << x << " " << y << " " << border;
+            }
+        }
+    }
 }
 
 TEST(PieceHeightField, ValuesThatAreNoLengthsAreRefused) {
