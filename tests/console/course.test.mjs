@@ -159,9 +159,9 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await page.getByText("1 stroke.").waitFor();
 
   // Begin.
-  await keys.type(page.getByRole("textbox", { name: "Name of the project" }), "Wirbel/1");
+  await keys.type(page.getByRole("textbox", { name: "Name of the project" }), "Fémur/1");
   await page.getByText("Leave out “/”: a name has letters, digits, spaces, full stops, _ and -.").waitFor();
-  await keys.type(page.getByRole("textbox", { name: "Name of the project" }), "Schädel 3");
+  await keys.type(page.getByRole("textbox", { name: "Name of the project" }), "Fémur 3");
   await keys.choose(page.getByRole("combobox", { name: "Cell", exact: true }), "foam-1");
   await keys.press(keys.button("Begin"));
   await page.waitForURL(/#\/cut\//);
@@ -187,7 +187,7 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await keys.to(keys.button("Keys"));
   await page.keyboard.press("Control+z");
   await keys.button("Undo cut 1 on piece A").waitFor();
-  const { cuts, weights } = server.run("segment", "Schädel 3.qch");
+  const { cuts, weights } = server.run("segment", "Fémur 3.qch");
   assert.equal(cuts.length, 1);
   assert.notEqual(weights.fragility, 7);
 
@@ -238,6 +238,6 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   await guide.waitForURL(/\/api\/t\//);
   await guide.waitForLoadState();
   assert.match(await guide.locator("body").innerText(), /Assembly guide: a\.ply[^]*Step 1 of/);
-  assert.ok(existsSync(join(server.projects, "Schädel 3.qch/guide.pdf")));
+  assert.ok(existsSync(join(server.projects, "Fémur 3.qch/guide.pdf")));
   assert.equal(pointers, 0, "a pointer was used");
 });
