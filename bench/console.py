@@ -118,7 +118,9 @@ def measure(program, scan, units, cell, folder):
     own = str(folder / "own.qch")
     command.run("segment", str(folder / scan.name), "--units", units, "--size-ok", "--cell", str(folder / cell.name), "-o", own)
     seconds, shown = timed(lambda: console.expect("GET", project))
-    rows.append(("project opened, pieces drawn", seconds, "segment", command.run("segment", own)))
+    rows.append(("project opened, exact pieces", seconds, "segment", command.run("segment", own)))
+    display = {"display": {}}
+    rows.append(("its pieces drawn", timed(lambda: console.expect("POST", project + "/questions", display))[0], "", None))
     rows.append(("the same again", timed(lambda: console.expect("GET", project))[0], "", None))
 
     def question(body):

@@ -58,7 +58,6 @@ HttpAnswer Console::show_project(const std::string& id) {
             shown.summary.redo = project.redo.value_or("");
             shown.decisions = project.decisions;
             shown.history = std::move(project.history);
-            shown.pieces = std::move(project.pieces);
             shown.segment = std::move(project.document);
         } else if (answer.status != 423) {
             return http_answer(answer);

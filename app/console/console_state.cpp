@@ -133,7 +133,6 @@ void fields(V& v, T& project) {
     fields(v, project.summary);
     v("decisions", project.decisions);
     v("history", project.history);
-    v("pieces", project.pieces);
     v("segment", project.segment);
 }
 

@@ -112,7 +112,6 @@ struct ShownProject {
     ProjectSummary summary;
     std::size_t decisions = 0;         // in force
     std::vector<std::string> history;  // these as sentences, the oldest first
-    std::vector<ShownPiece> pieces;
     JsonText segment;  // null while another program writes the project
 };
 

@@ -89,6 +89,9 @@ void fields(V& v, T& question) {
 template <class V, Of<JobsQuestion> T>
 void fields(V&, T&) {}
 
+template <class V, Of<DisplayQuestion> T>
+void fields(V&, T&) {}
+
 template <class V, Of<QuestionBody> T>
 void fields(V& v, T& question) {
     v.maybe("lane", question.lane);
@@ -97,6 +100,7 @@ void fields(V& v, T& question) {
     v.maybe("explain", question.explain);
     v.maybe("setups", question.setups);
     v.maybe("jobs", question.jobs);
+    v.maybe("display", question.display);
 }
 
 template <class V, Of<RepairBody> T>
@@ -281,7 +285,7 @@ DecisionBody read_decision(const std::string& json) {
 QuestionBody read_question(const std::string& json) {
     QuestionBody q = read_body<QuestionBody>(json);
     check_one(int{q.rank.has_value()} + int{q.preview.has_value()} + int{q.explain.has_value()} +
-              int{q.setups.has_value()} + int{q.jobs.has_value()});
+              int{q.setups.has_value()} + int{q.jobs.has_value()} + int{q.display.has_value()});
     if (q.setups && q.setups->decides()) check_one(0);
     return q;
 }

@@ -54,7 +54,8 @@ struct PreviewQuestion {
     bool setups = false;        // and how its pieces would be milled
 };
 
-struct JobsQuestion {};  // what could be handed over: the document of a plan
+struct JobsQuestion {};     // what could be handed over: the document of a plan
+struct DisplayQuestion {};  // the pieces as they are drawn
 
 struct ExplainQuestion {
     int cut = 0;  // its number; 0: the last one
@@ -68,6 +69,7 @@ struct QuestionBody {
     std::optional<ExplainQuestion> explain;
     std::optional<SetupRequest> setups;
     std::optional<JobsQuestion> jobs;
+    std::optional<DisplayQuestion> display;
 };
 
 // How a scan becomes a solid, as the options of repair and segment.

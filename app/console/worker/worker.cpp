@@ -82,7 +82,6 @@ class Worker {
             switch (request.task) {
                 case WorkerTask::show:
                     result.document = text_of_document(document(segment_open_project(open, {}, context_)));
-                    result.pieces = shown(open);
                     result.history = sentences_of(open.project().history);
                     break;
                 case WorkerTask::decide:
@@ -178,6 +177,10 @@ class Worker {
     void ask_in(OpenProject& open, const QuestionBody& body, ProjectAnswer& result) {
         if (body.jobs) {
             result.document = to_text(plan_dispatch(open.folder(), {}, context_));
+            return;
+        }
+        if (body.display) {
+            result.pieces = shown(open);
             return;
         }
         if (body.explain) {

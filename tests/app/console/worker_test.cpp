@@ -6,6 +6,8 @@
 #include <fstream>
 #include <random>
 
+#include "app/console/worker/shown_pieces.h"
+#include "app/display/display_store.h"
 #include "app/engine/segment_project.h"
 #include "app/engine/setup_project.h"
 #include "app/report/segment_report.h"
@@ -215,6 +217,24 @@ TEST(Worker, ItsAnswersAreThoseOfTheCommandToTheByte) {
     request.tried_weights->weight[0] = 0;
     request.top = 3;
     compare({WorkerTask::ask, {}, R"({"rank":{"weights":{"face_ratio":0},"top":3}})"}, request);
+}
+
+TEST(Worker, PiecesAreDrawnWhenAskedForAndFoundUnderTheirIds) {
+    const WorkedProject p;
+    WorkerThread worker(p.project);
+    const Json shown = Json::parse(worker.ask({WorkerTask::show, {}, {}}).document);
+    EXPECT_FALSE(shown.contains("pieces")) << "the document does not wait for drawings";
+    EXPECT_EQ(worker.decide(p.revision(), R"({"cut":{"plane":[1,0,0,3]}})").status, 200U);
+    const Json drawn = worker.question(R"({"display":{}})");
+    EXPECT_EQ(drawn.at("revision"), p.revision());
+    const Project project = load_project(p.project);
+    ASSERT_EQ(drawn.at("pieces").size(), project.pieces.size());
+    for (std::size_t i = 0; i < project.pieces.size(); ++i) {
+        const Json& piece = drawn.at("pieces").at(i);
+        EXPECT_EQ(piece.at("name"), project.pieces[i].name);
+        EXPECT_TRUE(kept_display(display_folder(p.project), DisplayKind::mesh, piece.at("mesh")));
+    }
+    EXPECT_EQ(worker.question(R"({"display":{}})"), drawn);
 }
 
 // Makes decisions at random by the worker or, as another program, directly; those that were accepted, done again on a

@@ -257,6 +257,12 @@ export interface VerifyDocument {
   }[];
 }
 
+export interface DrawnPiece {
+  name: string;
+  mesh: string; // its id
+  deviation_mm: number;
+}
+
 export interface Project {
   id: string;
   name: string;
@@ -267,7 +273,7 @@ export interface Project {
   cell: { name: string } | null;
   segment: Segment; // while work has the project: as it was read last
   prepare: Prepare | null;
-  pieces: { name: string; mesh: string; deviation_mm?: number }[];
+  drawn: DrawnPiece[]; // the pieces as the view shows them: after a decision those before it, until the new ones are there
   history?: string[]; // the decisions in force, oldest first
 }
 

@@ -2,8 +2,8 @@
 // only after the stream is open; events that came in between are applied to it by their numbers.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { ApiError, beUnsure, get, useKey } from "./api";
-import type { Hello, Project, State } from "./documents";
+import { ApiError, askWhole, beUnsure, get, useKey } from "./api";
+import type { DrawnPiece, Hello, Project, State } from "./documents";
 import { listen } from "./events";
 import type { LinkState, StreamEvent } from "./event_stream";
 import { hasKey, keyFor } from "./key";
@@ -112,7 +112,7 @@ export async function start(): Promise<void> {
 }
 
 // A project that work has is told without its document.
-type Read = Omit<Project, "segment" | "prepare" | "pieces"> & Partial<Pick<Project, "pieces">> & {
+type Read = Omit<Project, "segment" | "prepare" | "drawn"> & {
   segment: Project["segment"] | null;
   prepare?: Project["prepare"];
 };
@@ -128,15 +128,30 @@ export async function readProject(id: string, again = false): Promise<Project> {
   if (running && !again) return running;
   const read = get<Read>(`/api/projects/${id}`)
     .then((answer) => {
-      const segment = answer.segment ?? store.projects.get(id)?.segment;
+      const before = store.projects.get(id);
+      const segment = answer.segment ?? before?.segment;
       if (!segment) throw new ApiError(423, "Work has the project", "", "It is shown when the work is over", "", "try_again");
-      const project = { ...answer, segment, prepare: answer.prepare ?? null, pieces: answer.pieces ?? [] };
+      const project = { ...answer, segment, prepare: answer.prepare ?? null, drawn: before?.drawn ?? [] };
       change({ projects: new Map(store.projects).set(id, project) });
+      if (answer.segment) void draw(project);
       return project;
     })
     .finally(() => reads.delete(id));
   reads.set(id, read);
   return read;
+}
+
+// Asked after the document, because to draw pieces for the first time can take as long as to cut them.
+async function draw({ id, revision }: Project): Promise<void> {
+  try {
+    const answer = await askWhole<{ revision: string; pieces: DrawnPiece[] }>(id, "display", {});
+    const project = store.projects.get(id);
+    if (project?.revision !== revision || answer.revision !== revision) return;
+    change({ projects: new Map(store.projects).set(id, { ...project, drawn: answer.pieces }) });
+  } catch (reason) {
+    // 423: work has begun, and at its end the project is read again.
+    if (reason instanceof ApiError && reason.status !== 423) change({ error: reason });
+  }
 }
 
 // The project, read again when another window or the command line has changed it.

@@ -68,7 +68,7 @@ function Cutting({ project, address, stale }: { project: Project; address: Addre
   const best = useMemo(() => (first ? planeOf(first.plane) : null), [first?.plane]);
   const plane = dragged ?? chosen ?? best;
 
-  const { meshes, error: meshError } = useMeshes(project.pieces.map((one) => one.mesh));
+  const { meshes, error: meshError } = useMeshes(project.drawn.map((one) => one.mesh));
   const solids = useMemo(() => solidsOf(project, meshes, piece), [project, meshes, piece]);
   const mesh = solids.find((solid) => solid.name === piece)?.mesh ?? null;
   const shown = piece === "" ? null : plane;
@@ -202,7 +202,7 @@ function Reason(props: { project: Project; isWorking: boolean; hasProposal: bool
 }
 
 function solidsOf(project: Project, meshes: Map<string, Solid["mesh"]>, piece: string): Solid[] {
-  return project.pieces.flatMap(({ name, mesh: id }) => {
+  return project.drawn.flatMap(({ name, mesh: id }) => {
     const mesh = meshes.get(id);
     const colour = pieceColour(project.segment.pieces, name);
     return mesh ? [{ name, mesh, colour, dim: piece !== "" && name !== piece }] : [];
@@ -210,7 +210,7 @@ function solidsOf(project: Project, meshes: Map<string, Solid["mesh"]>, piece: s
 }
 
 function viewLabel(project: Project, piece: string, hasPlane: boolean, isProvisional: boolean): string {
-  const what = `${project.pieces.length} pieces of ${project.name}`;
+  const what = `${project.segment.pieces.length} pieces of ${project.name}`;
   if (!hasPlane) return what;
   return `${what}; piece ${piece} with the plane and its ${isProvisional ? "provisional " : ""}outline`;
 }

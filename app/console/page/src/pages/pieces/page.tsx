@@ -35,9 +35,9 @@ export function PiecesPage({ address, stale }: { address: Address; stale: boolea
 function Shown({ project, address, stale }: { project: Project; address: Address; stale: boolean }) {
   const { state } = useStore();
   const [apart, setApart] = useState(0.4);
-  const chosen = address.selection["piece"] ?? project.pieces[0]?.name ?? "";
+  const chosen = address.selection["piece"] ?? project.segment.pieces[0]?.name ?? "";
   const off = stale || (state?.read_only ?? true) || (state ? currentWork(state) !== null : true);
-  const { meshes, error } = useMeshes(project.pieces.map((one) => one.mesh));
+  const { meshes, error } = useMeshes(project.drawn.map((one) => one.mesh));
   const [byState, setByState] = useState(false);
   const [laid, setLaid] = useState<Record<string, Laid>>({}); // by piece: what was asked
   const [looked, setLooked] = useState<{ piece: string; base: number } | null>(null); // a base that is looked at
@@ -127,7 +127,7 @@ const NO_STATES: Record<string, string> = {};
 // By the id of the mesh.
 const stateIds = (project: Project, laid: Record<string, Laid>): Record<string, string> =>
   Object.fromEntries(
-    project.pieces.flatMap((piece) => {
+    project.drawn.flatMap((piece) => {
       const states = laid[piece.name]?.states;
       return states ? [[piece.mesh, states]] : [];
     }),
@@ -148,14 +148,14 @@ function arrowsOf(setup: Setup | null, solid: Solid | undefined): Arrow[] {
 }
 
 function labelOf(project: Project, piece: string, orientations: number): string {
-  const what = `${project.pieces.length} pieces of ${project.name}, apart`;
+  const what = `${project.segment.pieces.length} pieces of ${project.name}, apart`;
   if (orientations === 0) return what;
   return `${what}; arrows at piece ${piece} for ${orientations} tool orientation${orientations > 1 ? "s" : ""}`;
 }
 
 // Each piece is moved away from the middle of all by its share.
 function exploded(project: Project, meshes: Map<string, DisplayMesh>, states: Map<string, Uint8Array>, apart: number): Solid[] {
-  return project.pieces.flatMap(({ name, mesh: id }) => {
+  return project.drawn.flatMap(({ name, mesh: id }) => {
     const mesh = meshes.get(id);
     const colour = pieceColour(project.segment.pieces, name);
     if (!mesh) return [];
