@@ -14,6 +14,7 @@
 namespace qchopper {
 
 int run(const SampleArguments& arguments, Terminal& terminal);
+int run(const FuseArguments& arguments, Terminal& terminal);
 int run(const InspectArguments& arguments, Terminal& terminal);
 int run(const RepairArguments& arguments, Terminal& terminal);
 int run(const PrepareArguments& arguments, Terminal& terminal);

@@ -27,6 +27,7 @@ SUB_MODULES = {
         "cut",
         "simplify",
         "sample",
+        "fuse",
         "picture",
         "access",
         "objectives",
@@ -55,7 +56,7 @@ FREE_OF_CGAL = ["devices", "sim"]
 HEAVY = {
     "CGAL": (r"CGAL/", 5),
     "OpenMesh": (r"OpenMesh/", 2),
-    "Eigen": (r"Eigen/", 3),
+    "Eigen": (r"Eigen/", 4),
     "Embree": (r"embree3/", 1),
     "tinygltf": (r"(.*/)?tiny_gltf\.h$", 2),
     "TBB": (r"tbb/", 1),

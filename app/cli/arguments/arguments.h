@@ -27,6 +27,12 @@ struct SampleArguments {
     std::filesystem::path out;
 };
 
+struct FuseArguments {
+    std::filesystem::path list;
+    std::optional<double> voxel;
+    std::filesystem::path out;
+};
+
 struct InspectArguments {
     std::filesystem::path scan;
     std::optional<std::string> units;
@@ -262,7 +268,7 @@ struct Arguments {
     std::string progress;  // json; as `json` above; empty: as a line on a terminal
     bool timings = false;
     std::optional<std::size_t> threads;
-    std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
+    std::variant<SampleArguments, FuseArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
                  CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
                  GatherArguments, VerifyArguments, DryRunArguments, CellSimArguments, DispatchArguments,

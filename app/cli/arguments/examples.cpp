@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 21> all_examples{{
+constexpr std::array<Examples, 22> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -25,6 +25,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
 130 stopped (finished work is kept).)"},
     {"sample", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper sample femur --holes 3 --pen-grooves 2 -o femur.stl)"},
+    {"fuse", R"(  qchopper fuse bun.conf -o bunny.ply
+  qchopper fuse skull.conf --voxel 0.5 -o skull.ply)"},
     {"inspect", R"(  qchopper inspect vertebra.ply --units mm
   qchopper inspect femur.glb --deep
   qchopper inspect - --units mm --json < skull.stl.gz)"},

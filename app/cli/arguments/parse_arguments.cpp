@@ -81,6 +81,7 @@ struct Parser {
     CLI::App app{"From the scan of a bone to carving jobs for a robot cell.", "qchopper"};
     Arguments common;
     SampleArguments sample;
+    FuseArguments fuse;
     InspectArguments inspect;
     RepairArguments repair;
     PrepareArguments prepare;
@@ -114,6 +115,7 @@ struct Parser {
         app.require_subcommand(1);
         app.set_version_flag("--version", "qchopper " + version());
         add_sample();
+        add_fuse();
         add_inspect();
         add_repair(app, repair, common);
         add_prepare(app, prepare, common);
@@ -159,6 +161,17 @@ struct Parser {
         c->add_option("--marks", sample.pen_grooves)->check(is_count)->group("");
         c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
         add_common(c, common, [this] { common.command = sample; });
+    }
+
+    void add_fuse() {
+        CLI::App* c = app.add_subcommand("fuse", "make one mesh of several range scans, which need not fit exactly");
+        c->add_option("SCANS", fuse.list, "list of scans with their poses, as Stanford's .conf files are")->required();
+        c->add_option("--voxel", fuse.voxel,
+                      "edge of the cells in which scans are merged, in the unit of the scans "
+                      "(the spacing of their points)")
+            ->check(number_between(0, 1e6, "a length"));
+        c->add_option("-o,--out", fuse.out, "the file to write: .ply, or .stl")->required();
+        add_common(c, common, [this] { common.command = fuse; });
     }
 
     void add_inspect() {

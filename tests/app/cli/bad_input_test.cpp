@@ -212,6 +212,9 @@ std::vector<Case> uses() {
         {"MissingArgument", exit_use, {"inspect"}, {"SCAN"}},
         {"UnknownPreset", exit_use, {"prepare", "scan.ply", "--preset", "hare"}, {"hare", "bunny"}},
         {"TooFewFaces", exit_use, {"sample", "femur", "--faces", "3", "-o", "f.ply"}, {"2000", "3"}},
+        {"FuseOfNoList", exit_missing, {"fuse", "no.conf", "-o", "f.ply"}, {"no.conf"}},
+        {"FuseOfAMesh", exit_mesh, {"fuse", "scan.ply", "-o", "f.ply"}, {"scan.ply", "fewer than two scans"}},
+        {"FuseByNoLength", exit_use, {"fuse", "no.conf", "--voxel", "-1", "-o", "f.ply"}, {"--voxel"}},
         {"SampleOfNoFormat", exit_use, {"sample", "femur", "-o", "f.obj"}, {"f.obj", ".ply"}},
     };
 }

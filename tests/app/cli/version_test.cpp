@@ -27,7 +27,7 @@ TEST(Version, NamesTheBuildAndJobsRecordIt) {
 
 TEST(Version, OptionsThatEveryCommandHasAreInItsHelp) {
     const program::Folder folder;
-    for (const char* command : {"sample", "inspect", "repair", "prepare", "segment", "explain", "guide", "export",
+    for (const char* command : {"sample", "fuse", "inspect", "repair", "prepare", "segment", "explain", "guide", "export",
                                 "setup", "verify", "dry-run", "cell-sim", "dispatch", "schema"}) {
         const program::Ended help = program::run({command, "--help"}, {folder.path});
         for (const char* option : {"--json", "--quiet", "--progress", "--timings", "--threads"}) {
