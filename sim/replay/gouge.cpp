@@ -68,6 +68,23 @@ struct Hit {
     std::uint32_t line = 0;
 };
 
+using Hits = std::unordered_map<std::uint32_t, Hit>;  // by triangle
+using StraightPart = std::array<Vec3, 2>;
+
+// How far beside a straight part the ends of others lie, at most.
+double farthest_beside(const StraightPart& part, const std::vector<StraightPart>& others) {
+    const Vec3 along = part[1] - part[0];
+    const double length2 = dot(along, along);
+    double farthest = 0;
+    for (const StraightPart& other : others) {
+        for (const Vec3 end : other) {
+            const double place = length2 > 0 ? std::clamp(dot(end - part[0], along) / length2, 0.0, 1.0) : 0;
+            farthest = std::max(farthest, norm(end - part[0] - place * along));
+        }
+    }
+    return farthest;
+}
+
 class DirectionGouges {
  public:
     DirectionGouges(const ReplayScene& scene, std::size_t orientation)
@@ -80,9 +97,10 @@ class DirectionGouges {
         for (std::uint32_t t = 0; t < turned_.triangles.size(); ++t)
             bounds_.push_back(bounds_of(corners_of(turned_, t)));
     }
-    // `hole`: the one that the line drills, whose cap is not asked; nullptr: none.
-    void test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line, const SceneHole* hole,
-              std::unordered_map<std::uint32_t, Hit>& hits) const;
+    // The parts of a line one after the other. `hole`: the one that the line drills, whose cap is not asked; nullptr:
+    // none.
+    void test(const Cutter& cutter, const std::vector<StraightPart>& parts, double floor, std::uint32_t line,
+              const SceneHole* hole, Hits& hits) const;
 
  private:
     static TriangleMesh in_frame(const TriangleMesh& mesh, const Pose& frame) {
@@ -90,6 +108,16 @@ class DirectionGouges {
         for (Vec3& p : turned.points) p = apply_inverse(frame, p);
         return turned;
     }
+    struct Asked {
+        double floor = 0;
+        std::uint32_t line = 0;
+        const SceneHole* hole = nullptr;
+        double mouth = 0;  // of the hole, its height in this frame
+    };
+    // Of the swept tool, up to the top of the target.
+    FloatBox box_of(const StraightPart* begin, const StraightPart* end, double radius) const;
+    void test_triangle(const SweptCutter& swept, Vec3 from, std::uint32_t t, const Asked& asked, Hits& hits) const;
+
     Pose frame_;
     TriangleMesh turned_;
     TriangleTree tree_;
@@ -97,34 +125,62 @@ class DirectionGouges {
     double top_ = 0;
 };
 
-void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line,
-                           const SceneHole* hole, std::unordered_map<std::uint32_t, Hit>& hits) const {
+FloatBox DirectionGouges::box_of(const StraightPart* begin, const StraightPart* end, double radius) const {
+    Box box{(*begin)[0], (*begin)[0]};
+    for (const StraightPart* part = begin; part != end; ++part) {
+        for (const Vec3 tip : *part) extend(box, tip);
+    }
+    const Vec3 least{box.min.x - radius, box.min.y - radius, box.min.z};
+    return tree_.box_of({least, {box.max.x + radius, box.max.y + radius, top_}, least});
+}
+
+// Of a ball a triangle that is nowhere so deep under the whole line that a part could bring it to the floor is asked
+// once: a part is nowhere farther from the line than its ends.
+void DirectionGouges::test(const Cutter& cutter, const std::vector<StraightPart>& parts_in_setup, double floor,
+                           std::uint32_t line, const SceneHole* hole, Hits& hits) const {
+    std::vector<StraightPart> parts = parts_in_setup;
+    for (StraightPart& part : parts) {
+        for (Vec3& tip : part) tip = apply_inverse(frame_, tip);
+    }
     const double mouth = hole != nullptr ? apply_inverse(frame_, hole->mouth).z : 0;
-    const Vec3 a = apply_inverse(frame_, from);
-    const Vec3 move = apply_inverse(frame_, to) - a;
-    const double low = a.z + std::min(0.0, move.z);
-    if (low > top_) return;
-    const SweptCutter swept(cutter, move);
-    const bool is_ball = cutter.shape == ToolShape::ball;
-    const double r = cutter.radius;
-    const Vec3 least{a.x + std::min(0.0, move.x) - r, a.y + std::min(0.0, move.y) - r, low};
-    const Vec3 most{a.x + std::max(0.0, move.x) + r, a.y + std::max(0.0, move.y) + r, top_};
-    const FloatBox box = tree_.box_of({least, most, least});
-    tree_.for_each_near(box, [&](std::uint32_t t) {
-        const auto known = hits.find(t);
-        const double enough = known == hits.end() ? floor : std::max<double>(floor, known->second.depth);
-        // Of a ball most triangles are nowhere so deep for certain, because the distance changes by no more than that
-        // between two points.
-        const BoundingBall& bounds = bounds_[t];
-        if (is_ball && swept.is_ball_beyond(bounds.middle - a, bounds.radius - enough + rounding)) return;
-        std::array<Vec3, 3> corners = corners_of(turned_, t);
-        const bool is_cap = hole != nullptr && std::all_of(corners.begin(), corners.end(),
-                                                           [&](Vec3 c) { return std::abs(c.z - mouth) <= flat_cap; });
-        if (is_cap) return;
-        for (Vec3& c : corners) c = c - a;
-        const double depth = deepest_in(swept, corners, enough);
-        if (depth > enough) hits[t] = {t, static_cast<float>(depth), line};
-    });
+    std::vector<std::uint32_t> near;
+    const bool is_asked_once = cutter.shape == ToolShape::ball && parts.size() > 1;
+    if (is_asked_once) {
+        const Vec3 from = parts.front()[0];
+        const SweptCutter swept(cutter, parts.front()[1] - from);
+        const double beside = farthest_beside(parts.front(), parts) - floor + 2 * rounding;
+        tree_.for_each_near(box_of(parts.data(), parts.data() + parts.size(), cutter.radius), [&](std::uint32_t t) {
+            const BoundingBall& bounds = bounds_[t];
+            if (!swept.is_ball_beyond(bounds.middle - from, bounds.radius + beside)) near.push_back(t);
+        });
+    }
+    for (const StraightPart& part : parts) {
+        const SweptCutter swept(cutter, part[1] - part[0]);
+        const auto take = [&](std::uint32_t t) { test_triangle(swept, part[0], t, {floor, line, hole, mouth}, hits); };
+        if (std::min(part[0].z, part[1].z) > top_) continue;
+        if (is_asked_once) {
+            std::for_each(near.begin(), near.end(), take);
+        } else {
+            tree_.for_each_near(box_of(&part, &part + 1, cutter.radius), take);
+        }
+    }
+}
+
+// Of a ball most triangles are nowhere so deep for certain, because the distance changes by no more than that between
+// two points.
+void DirectionGouges::test_triangle(const SweptCutter& swept, Vec3 from, std::uint32_t t, const Asked& asked,
+                                    Hits& hits) const {
+    const auto known = hits.find(t);
+    const double enough = known == hits.end() ? asked.floor : std::max<double>(asked.floor, known->second.depth);
+    const BoundingBall& bounds = bounds_[t];
+    const bool is_ball = swept.cutter().shape == ToolShape::ball;
+    if (is_ball && swept.is_ball_beyond(bounds.middle - from, bounds.radius - enough + rounding)) return;
+    std::array<Vec3, 3> corners = corners_of(turned_, t);
+    const auto is_on_mouth = [&](Vec3 corner) { return std::abs(corner.z - asked.mouth) <= flat_cap; };
+    if (asked.hole != nullptr && std::all_of(corners.begin(), corners.end(), is_on_mouth)) return;
+    for (Vec3& corner : corners) corner = corner - from;
+    const double depth = deepest_in(swept, corners, enough);
+    if (depth > enough) hits[t] = {t, static_cast<float>(depth), asked.line};
 }
 
 // The hole that a line of a drill is on; nullptr: none.
@@ -136,9 +192,9 @@ const SceneHole* hole_along(const TipLine& line, const ReplayScene& scene) {
 }
 
 // The straight parts of a line that are tested: exact, and what rounding of its corner adds.
-std::vector<std::array<Vec3, 2>> parts_of(const ToolPath& path, std::size_t i) {
+std::vector<StraightPart> parts_of(const ToolPath& path, std::size_t i) {
     const TipLine& line = path.lines[i];
-    std::vector<std::array<Vec3, 2>> parts{{line.from, line.to}};
+    std::vector<StraightPart> parts{{line.from, line.to}};
     if (line.rounding <= 0 || path.after(i) == nullptr) return parts;
     const std::vector<Vec3> way = rounded_way(nullptr, line, path.after(i));
     for (std::size_t k = 1; k + 1 < way.size(); ++k) parts.push_back({way[k], way[k + 1]});
@@ -195,15 +251,13 @@ GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double 
             context.check_cancelled();
             context.progress("moves held against the piece", done, path.lines.size());
             const std::size_t count = std::min(at_once, lots - first);
-            std::vector<std::unordered_map<std::uint32_t, Hit>> hits(count);
+            std::vector<Hits> hits(count);
             parallel_for(0, count, [&](std::size_t k) {
                 const std::size_t end = std::min(lines.size(), (first + k + 1) * lot);
                 for (std::size_t i = (first + k) * lot; i < end; ++i) {
                     const SceneHole* hole = hole_along(path.lines[lines[i]], scene);
-                    for (const auto& part : parts_of(path, lines[i])) {
-                        gouges.test(cutters[path.lines[lines[i]].tool], part[0], part[1], floor, lines[i], hole,
-                                    hits[k]);
-                    }
+                    gouges.test(cutters[path.lines[lines[i]].tool], parts_of(path, lines[i]), floor, lines[i], hole,
+                                hits[k]);
                 }
             });
             for (const auto& of_lot : hits) {

@@ -22,6 +22,11 @@ struct BelowRange {
     std::vector<DexelTile::Below>::iterator end;
 };
 
+std::size_t square_of(TileCell at) {
+    return DexelTile::square_of_cut(static_cast<std::int32_t>(at.cell % side),
+                                    static_cast<std::int32_t>(at.cell / side));
+}
+
 BelowRange below_of(std::vector<DexelTile::Below>& row, std::size_t cell) {
     const auto is_before = [](const DexelTile::Below& b, std::uint32_t c) { return b.cell < c; };
     const auto number = static_cast<std::uint32_t>(cell);
@@ -41,6 +46,11 @@ void raise_next(DexelTile& tile, std::size_t cell) {
     tile.low[cell] = next->low;
     tile.high[cell] = next->high;
     row.erase(next);
+}
+
+float rounded_up(double z) {
+    const auto nearest = static_cast<float>(z);
+    return nearest < z ? std::nextafter(nearest, infinite) : nearest;
 }
 
 void add_part(std::vector<Dexel>& parts, double low, double high) {
@@ -116,6 +126,7 @@ DexelTile& DexelColumns::tile(std::int32_t tx, std::int32_t ty) {
     if (tile.version == 0) make(tile, tx, ty);
     tile.known_from.assign(DexelTile::cells, infinite);
     tile.slabs.assign(static_cast<std::size_t>((own_->top - own_->bottom) / slab_) + 1, {});
+    tile.descents.fill({});
     tile.version = version_;
     return tile;
 }
@@ -143,21 +154,24 @@ std::size_t DexelColumns::slab_of(double z, std::size_t count) const {
     return static_cast<std::size_t>(std::clamp((own_->top - z) / slab_, 0.0, static_cast<double>(count - 1)));
 }
 
-DexelColumns::Met DexelColumns::ask_slabs(DexelTile& tile, TileCell at, std::size_t first, std::size_t end) {
-    const std::size_t square =
-        DexelTile::square_of_cut(static_cast<std::int32_t>(at.cell % side), static_cast<std::int32_t>(at.cell / side));
+DexelColumns::Met DexelColumns::ask_slab(DexelTile& tile, TileCell at, std::size_t slab) {
+    const std::size_t square = square_of(at);
     const std::uint64_t own_bit = std::uint64_t{1} << square;
+    DexelTile::Slab& asked = tile.slabs[slab];
+    if ((asked.known & own_bit) == 0) {
+        asked.known |= own_bit;
+        const Met met = met_in_slab(at, slab);
+        asked.met[square] = met.maps;
+        if (met.is_removed) asked.removed |= own_bit;
+    }
+    return {asked.met[square], (asked.removed & own_bit) != 0};
+}
+
+DexelColumns::Met DexelColumns::ask_slabs(DexelTile& tile, TileCell at, std::size_t first, std::size_t end) {
     Met all;
     met_.clear();
     for (std::size_t k = first; k < end; ++k) {
-        DexelTile::Slab& slab = tile.slabs[k];
-        if ((slab.known & own_bit) == 0) {
-            slab.known |= own_bit;
-            const Met met = met_in_slab(at, k);
-            slab.met[square] = met.maps;
-            if (met.is_removed) slab.removed |= own_bit;
-        }
-        met_.push_back({slab.met[square], (slab.removed & own_bit) != 0});
+        met_.push_back(ask_slab(tile, at, k));
         all.maps |= met_.back().maps;
         all.is_removed |= met_.back().is_removed;
     }
@@ -172,7 +186,7 @@ DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const
     const double x_min = own_->centre_x(at.tx * side + x / size * size);
     const double y_min = own_->centre_y(at.ty * side + y / size * size);
     const double wide = (size - 1) * own_->cell();
-    const double top = own_->top - static_cast<double>(slab) * slab_;
+    const double top = top_of_slab(slab);
     const Box columns{{x_min, y_min, top - slab_}, {x_min + wide, y_min + wide, top}};
     Met met;
     for (const OtherMap& other : others_) {
@@ -186,8 +200,7 @@ DexelColumns::Met DexelColumns::met_in_slab(TileCell at, std::size_t slab) const
 // The slabs at the ends go on to those of the part: heights beyond the map's, and rounding.
 Dexel DexelColumns::part_in(std::size_t first, std::size_t begin, std::size_t end) const {
     constexpr double far = std::numeric_limits<double>::infinity();
-    return {end == met_.size() ? -far : own_->top - static_cast<double>(first + end) * slab_,
-            begin == 0 ? far : own_->top - static_cast<double>(first + begin) * slab_};
+    return {end == met_.size() ? -far : top_of_slab(first + end), begin == 0 ? far : top_of_slab(first + begin)};
 }
 
 void DexelColumns::subtract_removed(std::size_t first) {
@@ -217,8 +230,40 @@ void DexelColumns::subtract_others(TileCell at, std::size_t first, Maps met) {
     }
 }
 
+// Slabs that another map has removed, then slabs of which none has removed anything. What follows is asked cell by
+// cell.
+void DexelColumns::know_square(DexelTile& tile, TileCell at, double from_up) {
+    constexpr std::size_t size = DexelTile::square;
+    DexelTile::Descent& descent = tile.descents[square_of(at)];
+    if (descent.is_ended) return;
+    const std::size_t begin = at.cell / side / size * size * side + at.cell % side / size * size;
+    if (!descent.is_begun) {
+        descent = {slab_of(tile.highest_in(begin, size), tile.slabs.size()), true, false, false};
+    }
+    const std::size_t first = descent.slab;
+    std::size_t removed = first;  // before it all is
+    for (const std::size_t end = slab_of(from_up, tile.slabs.size()) + 1; descent.slab < end; ++descent.slab) {
+        const Met met = ask_slab(tile, at, descent.slab);
+        descent.is_in_foam |= met == Met{};
+        descent.is_ended = descent.is_in_foam ? met != Met{} : !met.is_removed;
+        if (descent.is_ended) break;
+        if (met.is_removed) ++removed;
+    }
+    if (descent.slab == first) return;
+    const auto cleared = static_cast<float>(top_of_slab(removed));
+    const float known = rounded_up(top_of_slab(descent.slab));
+    for (std::size_t j = 0; j < size; ++j) {
+        for (std::size_t cell = begin + j * side; cell < begin + j * side + size; ++cell) {
+            if (removed > first) lower(tile, cell, cleared);
+            tile.known_from[cell] = std::min(tile.known_from[cell], known);
+        }
+    }
+}
+
 void DexelColumns::know_more(DexelTile& tile, TileCell at, double from_up) {
     const std::size_t cell = at.cell;
+    know_square(tile, at, from_up - known_below);
+    if (from_up >= tile.known_from[cell]) return;
     const float high = tile.known_from[cell];
     const auto low = static_cast<float>(from_up - known_below);
     tile.known_from[cell] = low;

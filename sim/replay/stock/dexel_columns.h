@@ -3,8 +3,8 @@
 // mm, in the frame of the direction. Foam only ever becomes less, so that a column of earlier is never too short: it
 // is kept, and what the other directions have taken from it since is subtracted only where a tool comes, and only from
 // there up (DexelTile::known_from), of the directions that may have taken something from a square of columns there;
-// what one of them has taken from all of the square goes at once (DexelTile::Slab). O(cells of those maps along that
-// part of the column) (tests/sim/replay/stock/stock_model_test.cpp).
+// what one of them has taken from all of the square goes at once, from all of its columns (DexelTile::Slab). O(cells of
+// those maps along that part of the column) (tests/sim/replay/stock/stock_model_test.cpp).
 
 #pragma once
 
@@ -70,7 +70,12 @@ class DexelColumns {
     };
     static ColumnRemoval lower_through(DexelTile& tile, std::size_t cell, double z);
     void know_more(DexelTile& tile, TileCell at, double from_up);
+    // Makes all columns of the square of a cell known from a height up, as far down as whole slabs can tell.
+    void know_square(DexelTile& tile, TileCell at, double from_up);
     std::size_t slab_of(double z, std::size_t count) const;
+    double top_of_slab(std::size_t slab) const { return own_->top - static_cast<double>(slab) * slab_; }
+    // Of the square of a cell.
+    Met ask_slab(DexelTile& tile, TileCell at, std::size_t slab);
     // Of the slabs from one to before another, into met_; of all of them together.
     Met ask_slabs(DexelTile& tile, TileCell at, std::size_t first, std::size_t end);
     Met met_in_slab(TileCell at, std::size_t slab) const;

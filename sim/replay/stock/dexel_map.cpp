@@ -52,11 +52,11 @@ void DexelTile::measure_most() {
 }
 
 // In lanes, which compilers turn into vectors.
-float DexelTile::highest_in(std::size_t first) const {
+float DexelTile::highest_in(std::size_t first, std::int32_t size) const {
     std::array<float, square> highest;
     highest.fill(-std::numeric_limits<float>::infinity());
-    for (std::int32_t j = 0; j < top_square; ++j) {
-        for (std::int32_t i = 0; i < top_square; i += square) {
+    for (std::int32_t j = 0; j < size; ++j) {
+        for (std::int32_t i = 0; i < size; i += square) {
             const std::size_t begin = first + static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
             for (std::size_t k = 0; k < highest.size(); ++k) {
                 const float own = low[begin + k] < high[begin + k] ? high[begin + k] : highest[k];

@@ -50,6 +50,14 @@ struct DexelTile {
         std::array<std::uint16_t, cells / (square * square)> met{};
     };
     std::vector<Slab> slabs;
+    // How far the columns of a square are known from their highest foam down, all at once: to before a slab.
+    struct Descent {
+        std::size_t slab = 0;
+        bool is_begun = false;
+        bool is_in_foam = false;  // slabs that no other map has removed anything from were passed
+        bool is_ended = false;    // at a slab that does not tell
+    };
+    std::array<Descent, cells / (square * square)> descents;
     // Highest foam of each square of 16 x 16 cells; too high is allowed.
     static constexpr std::int32_t top_square = 16;
     std::array<float, cells / (top_square * top_square)> top{};
@@ -101,8 +109,8 @@ struct DexelTile {
         lowered_squares |= std::uint64_t{1} << in_square;
     }
     void measure_most();
-    // Of the columns of the square of `top` that begins with a cell.
-    float highest_in(std::size_t first) const;
+    // Of the columns of a square of `size` x `size` cells, a multiple of 8, that begins with a cell.
+    float highest_in(std::size_t first, std::int32_t size) const;
     static constexpr std::size_t square_of_cut(std::int32_t x, std::int32_t y) {
         return static_cast<std::size_t>(y / square) * (side / square) + static_cast<std::size_t>(x / square);
     }

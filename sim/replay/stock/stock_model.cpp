@@ -264,7 +264,7 @@ double StockModel::disc_contact(std::size_t orientation, double radius, double a
                 }
             }
             // Nothing may have stood as high as was thought.
-            tile.top[static_cast<std::size_t>(q)] = tile.highest_in(cell_of(x0, y0));
+            tile.top[static_cast<std::size_t>(q)] = tile.highest_in(cell_of(x0, y0), square);
         }
     });
     return worst;

@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "base/parallel.h"
+#include "sim/replay/mill_stock.h"
 #include "sim/replay/replay.h"
+#include "sim/replay/stock/tool_axis_frame.h"
+#include "tests/shapes.h"
 #include "tests/sim/replay/box_job.h"
 
 namespace qchopper {
@@ -108,6 +113,69 @@ TEST(Gouge, OfALongTriangleIsBoundedClosely) {
     double nearest = 1e9;
     for (int i = 0; i <= 1000; ++i) nearest = std::min(nearest, norm(from + 0.001 * i * move));
     EXPECT_NEAR(deepest_in(SweptCutter(cutters[0], move), wall, 0.0278), 6 - nearest, gouge_resolution);
+}
+
+// Lines with rounded corners over a ball, some of them through it.
+ToolPath random_lines(std::size_t count, const Pose& frame, std::uint32_t tool) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> in(-1, 1);
+    ToolPath path;
+    Vec3 at{-20, -20, 30};
+    for (std::size_t i = 0; i < count; ++i) {
+        TipLine line;
+        line.from = apply(frame, at);
+        at = {20 * in(random), 20 * in(random), 17 + 6 * in(random)};
+        line.to = apply(frame, at);
+        line.tool = tool;
+        line.rounding = i % 4 == 0 ? 0 : 3 + 2 * in(random);
+        line.follows_line = i > 0;
+        path.lines.push_back(line);
+    }
+    return path;
+}
+
+// By asking every triangle about every part of every line, in their order.
+std::vector<float> depths_by_all(const ToolPath& path, const TriangleMesh& mesh, const Pose& frame,
+                                 const Cutter& cutter, double floor) {
+    std::vector<float> depth(mesh.triangles.size(), 0);
+    for (std::size_t i = 0; i < path.lines.size(); ++i) {
+        std::vector<Vec3> way = rounded_way(nullptr, path.lines[i], path.after(i));
+        const std::size_t chords = path.lines[i].rounding > 0 && path.after(i) != nullptr ? way.size() - 2 : 0;
+        for (std::size_t k = 0; k <= chords; ++k) {
+            const Vec3 from = apply_inverse(frame, k == 0 ? path.lines[i].from : way[k]);
+            const Vec3 to = apply_inverse(frame, k == 0 ? path.lines[i].to : way[k + 1]);
+            const SweptCutter swept(cutter, to - from);
+            for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+                std::array<Vec3, 3> corners = corners_of(mesh, t);
+                for (Vec3& corner : corners) corner = apply_inverse(frame, corner) - from;
+                const double enough = std::max<double>(floor, depth[t]);
+                const double found = deepest_in(swept, corners, enough);
+                if (found > enough) depth[t] = static_cast<float>(found);
+            }
+        }
+    }
+    return depth;
+}
+
+TEST(Gouge, OfLinesWithRoundedCornersIsThatOfAllTrianglesUnderAllParts) {
+    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 18, 16);
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.target = &mesh;
+    constexpr double floor = 0.01;
+    for (const Vec3 tool_axis : {Vec3{0, 0, 1}, normalized(Vec3{0.5, -0.2, 1})}) {
+        scene.orientations = {{tool_axis, 0, {}}};
+        const Pose frame = tool_axis_frame(tool_axis);
+        for (std::uint32_t tool = 0; tool < cell.machine->tools.size(); ++tool) {
+            if (is_drill(cell.machine->tools[tool])) continue;
+            const ToolPath path = random_lines(12, frame, tool);
+            const GougeFigures figures = find_gouges(path, scene, floor, {});
+            EXPECT_GT(figures.largest, 1);
+            EXPECT_EQ(figures.depth, depths_by_all(path, mesh, frame, cutter_of(cell.machine->tools[tool]), floor))
+                << cell.machine->tools[tool].number;
+        }
+    }
 }
 
 TEST(Gouge, AShiftedPassIsFoundWithItsLineAndDepth) {
