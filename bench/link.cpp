@@ -1,5 +1,7 @@
 // Wall times of the link to a cell: journal, requests, transfer, hand-off, beside a commit of SQLite to the same disk
-// and a round trip of TCP over loopback, in one run. bench_link [FOLDER], a folder on the disk to be measured.
+// and a round trip of TCP over loopback, in one run; then its latency during attacks (link_attacks.h).
+// bench_link [FOLDER], a folder on the disk to be measured; bench_link --attacks SECONDS, the attacks alone, each so
+// long.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -17,6 +19,7 @@
 #include "app/dispatch/dispatch_jobs.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
+#include "bench/link_attacks.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/wire/codec.h"
 #include "devices/wire/modbus_tcp.h"
@@ -105,6 +108,7 @@ struct Link {
         options.drop_folder = folder / "drop";
         options.store_folder = folder / "store";
         options.limits.speed = 1e6;
+        options.peer_rate = 1e6;  // what is measured is not how long a stranger has to wait
         cell = std::make_unique<CellSim>(options);
         cell->start();
         bus = rig::connect(*cell);
@@ -177,6 +181,9 @@ void measure_transfer(Link& link, double round_trip_s, Figures& figures) {
     };
     const double seconds = sent_s(bytes) - sent_s(1000);
     figures.record("loopback", "transfer by chunks", number_text(1e-6 * bytes / seconds) + " MB/s");
+    const double bare = libmodbus_bytes_per_s();
+    figures.record("loopback", "a loop of libmodbus, FC16 of 232 bytes", number_text(1e-6 * bare) + " MB/s");
+    figures.at_least("loopback", "transfer by chunks / loop of libmodbus", bytes / seconds / bare, 0.5);
     const double per_chunk = seconds / (static_cast<double>(bytes) / 232);
     figures.at_most("loopback", "one chunk / round trip", per_chunk / round_trip_s, 20);
 }
@@ -202,6 +209,15 @@ void measure_schedules(Figures& figures) {
     figures.at_least("virtual clock", "schedules of faults per second", per_second, 2000.0 / 120);
 }
 
+constexpr double attack_s = 3;
+
+int measure_attacks_alone(double seconds) {
+    Figures figures;
+    measure_attacks(seconds, figures);
+    figures.print(std::cout);
+    return 0;
+}
+
 int measure(const fs::path& folder) {
     fs::create_directories(folder);
     Figures figures;
@@ -216,6 +232,7 @@ int measure(const fs::path& folder) {
     measure_transfer(link, round_trip_s, figures);
     measure_jobs(link, commit_s, figures);
     measure_schedules(figures);
+    measure_attacks(attack_s, figures);
     figures.print(std::cout);
     return 0;
 }
@@ -225,6 +242,9 @@ int measure(const fs::path& folder) {
 
 int main(int argc, char** argv) {
     try {
+        if (argc == 3 && std::string(argv[1]) == "--attacks") {
+            return qchopper::bench::measure_attacks_alone(std::stod(argv[2]));
+        }
         const qchopper::rig::Folder folder;
         return qchopper::bench::measure(argc > 1 ? std::filesystem::path(argv[1]) / "bench_link" : folder.path);
     } catch (const std::exception& error) {

@@ -26,6 +26,7 @@ CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& a
     if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
     options.host = address.host;
     options.port = address.port;
+    options.allow = checked_addresses(arguments.allow);
     options.drop_folder = arguments.drop;
     if (arguments.store) options.store_folder = *arguments.store;
     options.limits.speed = arguments.speed;

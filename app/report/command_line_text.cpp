@@ -100,6 +100,8 @@ constexpr Row rows[] = {
     {"accept_memory",
      "Look at the cell and what it has cut, then accept its memory: qchopper cell accept-store[ --to {0}]"},
     {"help_of_cell", "see qchopper cell --help"},
+    {"list_who_may_connect",
+     "Listen on 127.0.0.1, or name who may connect: --allow ADDRESS,... with numeric addresses."},
     {"list_faults", "docs/user/cell-sim.md lists the commands, `qchopper cell-sim --list-faults` the faults."},
 };
 

@@ -18,6 +18,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = ControlEnd::Kind;
 
+constexpr double lost_s = 0.25;  // until a frame that may not have arrived is sent again: the cell executes it once
+
+Clock::time_point after(double seconds) {
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 double seconds_since(Clock::time_point then) {
     return std::chrono::duration<double>(Clock::now() - then).count();
 }
@@ -190,14 +196,14 @@ class Control {
         end_.result = AckResult::none;
         end_.why = "the cell has not acknowledged " + in_words(command) + ", and may have done it";
         const Clock::time_point began = Clock::now();
-        Clock::time_point sent;
+        Clock::time_point next_frame;
         bool is_pending = false;
         for (;;) {
             const double bound_s = is_pending ? patience_s : std::min(patience_s, order_.timings.answer_s);
             if (seconds_since(began) > bound_s || (is_cancelled() && command != CellCommand::release)) return;
-            if (sent == Clock::time_point() || (!is_pending && seconds_since(sent) > order_.timings.resend_s)) {
-                sent = Clock::now();
-                bus_.write_holding(command_block.base, encode(frame));
+            if (!is_pending && seconds_since(next_frame) > 0) {
+                const bool has_arrived = bus_.write_holding(command_block.base, encode(frame)).is_ok();
+                next_frame = after(has_arrived ? order_.timings.resend_s : std::min(order_.timings.resend_s, lost_s));
             }
             heartbeat();
             const HandOffInput input = read_status_block(bus_);

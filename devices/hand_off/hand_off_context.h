@@ -50,6 +50,7 @@ constexpr int max_claims = 10;
 constexpr int max_bad_identities = 4;  // in a row, each read three times
 constexpr int max_odd_answers = 10;    // RESULTs in a row that do not help
 constexpr int max_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
+constexpr int max_tickets_lost = 10;   // STOREs that did not find the TICKET as it was written
 constexpr int max_tokenless = 3;       // acknowledged PREPAREs without a token
 
 // hand_off_text.cpp

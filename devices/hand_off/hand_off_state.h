@@ -127,6 +127,7 @@ struct HandOff : HandOffEnd, JobPast {
     int ready_commands = 0;  // acknowledged since the cell was to be made ready
     int bad_identities = 0;  // since the last good one
     int odd_answers = 0;     // RESULTs since the last one that helped
+    int tickets_lost = 0;    // STOREs that did not find the TICKET as it was written
     int tokenless = 0;       // PREPAREs that were acknowledged without a token
     double progress_s = -1;  // when progress was last kept
 

@@ -325,6 +325,10 @@ HandOffAction refused(StepContext& context, AckResult result) {
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
     }
+    // Damaged on the way, or another client has written a TICKET in between.
+    const bool has_other_ticket = result == AckResult::ticket_crc || result == AckResult::no_ticket;
+    if (h.step == store && has_other_ticket && ++h.tickets_lost <= max_tickets_lost)
+        return enter(context, write_ticket);
     JournalEvent& event = context.keep(JournalKind::refused);
     event.command = h.command.command;
     event.refusal = result;

@@ -14,9 +14,10 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "sim/cell/drafts.h"
+#include "sim/cell/link/modbus_server.h"
 #include "sim/cell/memory.h"
 #include "sim/cell/modbus_pdu.h"
-#include "sim/cell/modbus_server.h"
 #include "sim/cell/panel.h"
 #include "sim/cell/store.h"
 
@@ -99,13 +100,28 @@ struct CellSim::Parts {
         if (options.on_message) options.on_message(line);
     }
 
-    Bytes answer(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
+    ServerAnswer answer(const ServerRequest& request) {
         const std::lock_guard lock(mutex);
         if (is_off) return {};
-        Bytes bytes = answer_pdu(unit, pdu, cell, clock.now(), cell_hooks);
+        const std::uint16_t bad_frames = cell.bad_frames;
+        drafts.begin(request.connection, cell);
+        ServerAnswer made{answer_pdu(request.unit, request.pdu, cell, clock.now(), cell_hooks)};
+        drafts.end(request.connection, request.pdu, cell);
         if (!has_power()) return {};
         pass_on_pending();
-        return bytes;
+        made.is_valid = cell.bad_frames == bad_frames;
+        made.lease = lease_named_in(request.pdu, cell);
+        return made;
+    }
+
+    std::uint64_t lease() {
+        const std::lock_guard lock(mutex);
+        return is_off ? 0 : lease_number(cell);
+    }
+
+    void forget(std::uint64_t connection) {
+        const std::lock_guard lock(mutex);
+        drafts.forget(connection);
     }
 
     std::vector<Delivery> send(Bytes frame) {
@@ -266,6 +282,7 @@ struct CellSim::Parts {
     mutable std::mutex mutex;  // guards all below
     SimClock clock;
     CellState cell;
+    Drafts drafts;
     bool is_off = false;
     std::optional<std::int64_t> on_at_ms;  // of an end of a power cut that comes by itself
     std::uint64_t handled = 0;             // number of the question that was passed on last
@@ -308,9 +325,12 @@ void CellSim::start() {
     ModbusServerOptions listens;
     static_cast<ListenAt&>(listens) = p.options;
     listens.deliver = [&p](Bytes frame) { return p.send(std::move(frame)); };
+    listens.lease = [&p] { return p.lease(); };
+    listens.on_close = [&p](std::uint64_t connection) { p.forget(connection); };
+    if (p.options.peer_rate > 0) listens.peer_rate = listens.peer_burst = p.options.peer_rate;
     p.server = std::make_unique<ModbusServer>(
-        listens, [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); },
-        [&p] { p.tick(); }, [&p](const std::string& line) { p.report(line); });
+        listens, [&p](const ServerRequest& request) { return p.answer(request); }, [&p] { p.tick(); },
+        [&p](const std::string& line) { p.report(line); });
     try {
         p.server->start();
     } catch (...) {

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "devices/wire/codec.h"
+#include "sim/cell/link/modbus_listener.h"
 #include "sim/cell/machine.h"
-#include "sim/cell/modbus_listener.h"
 #include "sim/cell/script.h"
 
 namespace qchopper {
@@ -22,6 +22,8 @@ struct CellSimOptions : ListenAt {
     std::filesystem::path drop_folder;   // where job files arrive; empty: only chunks
     std::filesystem::path store_folder;  // of a memory that outlives the program; empty: a temporary one
     std::uint64_t max_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
+    double peer_rate =
+        0;              // requests per second of the clients at one address without the lease; 0: as the server has it
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
     // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may
     // outlive the cell. Without it and on_question nobody consents.

@@ -183,6 +183,8 @@ struct CellState {
     std::deque<Acknowledgement> senders;  // the last one of each owner, of at most 256 owners
     std::uint16_t bad_frames = 0;
     AckResult bad_reason = AckResult::none;
+    std::uint64_t untold_bad_frames = 0;            // since the last line about one
+    std::optional<std::int64_t> bad_frame_told_ms;  // when that line was logged
     AckResult transfer_result = AckResult::none;
     ResultRecord answer;      // RESULT, if has_answer
     bool has_answer = false;  // a QUERY or QUERY_FILE was received

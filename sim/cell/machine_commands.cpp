@@ -25,10 +25,19 @@ constexpr Uuid any_job = [] {
     return ones;
 }();
 
-void count_bad_frame(CellState& cell, AckResult reason, const CellHooks& hooks) {
+// At most one line a minute: anybody on the network can send such commands, as fast as the link takes them.
+void count_bad_frame(CellState& cell, AckResult reason, CellTime now, const CellHooks& hooks) {
+    constexpr std::int64_t line_ms = 60000;
     ++cell.bad_frames;
     cell.bad_reason = reason;
-    log(cell, hooks, std::string("a command that cannot be trusted: ") + name(reason));
+    ++cell.untold_bad_frames;
+    if (cell.bad_frame_told_ms && now.steady_ms - *cell.bad_frame_told_ms < line_ms) return;
+    const std::uint64_t before = cell.untold_bad_frames - 1;
+    log(cell, hooks,
+        std::string("a command that cannot be trusted: ") + name(reason) +
+            (before == 0 ? "" : ", and " + std::to_string(before) + " before it since the last such line"));
+    cell.bad_frame_told_ms = now.steady_ms;
+    cell.untold_bad_frames = 0;
 }
 
 AckResult reason_of(BlockFault fault) {
@@ -391,13 +400,14 @@ void receive_command(CellState& cell, std::span<const std::uint16_t> block, Cell
     pass_time(cell, now, hooks);
     const Decoded<Command> decoded = decode<Command>(block);
     if (decoded.fault == BlockFault::empty || decoded.fault == BlockFault::length) return;
-    if (!decoded.is_ok()) return cell::count_bad_frame(cell, cell::reason_of(decoded.fault), hooks);
+    if (!decoded.is_ok()) return cell::count_bad_frame(cell, cell::reason_of(decoded.fault), now, hooks);
     const Command& command = decoded.value;
     const std::uint32_t crc = command_crc(block);
-    if (command.seq == 0) return cell::count_bad_frame(cell, AckResult::stale_seq, hooks);
+    if (command.seq == 0) return cell::count_bad_frame(cell, AckResult::stale_seq, now, hooks);
     for (const Acknowledgement& last : cell.senders) {
         if (last.owner != command.owner || command.seq > last.seq) continue;
-        if (command.seq < last.seq || crc != last.crc) return cell::count_bad_frame(cell, AckResult::stale_seq, hooks);
+        if (command.seq < last.seq || crc != last.crc)
+            return cell::count_bad_frame(cell, AckResult::stale_seq, now, hooks);
         cell.ack = last;
         return;
     }

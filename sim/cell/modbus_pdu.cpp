@@ -96,6 +96,13 @@ void write_zeros(CellState& cell, CellTime now, const CellHooks& hooks) {
     }
 }
 
+// Precondition: `pdu` has 6 bytes, and 2 more for each register.
+Registers registers_in(std::span<const std::uint8_t> pdu) {
+    Registers registers;
+    for (std::size_t at = 6; at < pdu.size(); at += 2) registers.push_back(u16_at(pdu, at));
+    return registers;
+}
+
 Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
     if (pdu.size() < 6) return exception_pdu(pdu[0], illegal_value);
     const std::uint16_t address = u16_at(pdu, 1);
@@ -106,8 +113,7 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);
     const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
-    Registers registers;
-    for (std::size_t i = 0; i < count; ++i) registers.push_back(u16_at(pdu, 6 + 2 * i));
+    Registers registers = registers_in(pdu);
     spoil_written(cell.faults, registers);
     const std::uint8_t code = write_block(*block, registers, cell, now, hooks);
     if (code != 0) return exception_pdu(pdu[0], code);
@@ -129,6 +135,27 @@ Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState
     if (pdu[0] == read_input) return answer_read(Side::input, pdu, cell, now, hooks);
     if (pdu[0] == write_holding) return answer_write(pdu, cell, now, hooks);
     return exception_pdu(pdu[0], illegal_function);
+}
+
+bool writes_block(std::span<const std::uint8_t> pdu, const Block& block) {
+    return pdu.size() == 6U + 2U * block.count && pdu[0] == write_holding && u16_at(pdu, 1) == block.base &&
+           u16_at(pdu, 3) == block.count && pdu[5] == 2U * block.count;
+}
+
+std::uint64_t lease_number(const CellState& cell) {
+    if (!cell.lease) return 0;
+    return (std::uint64_t{cell.memory.epoch_held} << 32U) | cell.lease->owner;
+}
+
+std::uint64_t lease_named_in(std::span<const std::uint8_t> pdu, const CellState& cell) {
+    const auto named = [&](const auto& decoded) {
+        if (!decoded.is_ok()) return std::uint64_t{0};
+        return (std::uint64_t{decoded.value.epoch} << 32U) | decoded.value.owner;
+    };
+    std::uint64_t number = 0;
+    if (writes_block(pdu, command_block)) number = named(decode<Command>(registers_in(pdu)));
+    if (writes_block(pdu, heartbeat_block)) number = named(decode<Heartbeat>(registers_in(pdu)));
+    return number == lease_number(cell) ? number : 0;
 }
 
 }  // namespace qchopper

@@ -18,4 +18,12 @@ namespace qchopper {
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks);
 
+// Whether the PDU writes this whole block, as answer_pdu() accepts it; not for CHUNK, which has many sizes.
+bool writes_block(std::span<const std::uint8_t> pdu, const Block& block);
+
+// EPOCH and OWNER of the lease that is alive, as one number; 0: there is none.
+std::uint64_t lease_number(const CellState& cell);
+// The same, if the PDU writes a sound COMMAND or HEARTBEAT that names this lease, as its holder does; else 0.
+std::uint64_t lease_named_in(std::span<const std::uint8_t> pdu, const CellState& cell);
+
 }  // namespace qchopper

@@ -97,6 +97,7 @@ Bytes CellSteps::answer(const Bytes& pdu) {
     const std::uint8_t function = pdu.empty() ? 0 : pdu[0];
     const bool is_exception = bytes[0] == (function | 0x80U) && bytes.size() == 2;
     demand(is_exception || bytes[0] == function);
+    ++requests_;
     return bytes;
 }
 

@@ -37,6 +37,7 @@ class CellSteps {
     CellSteps& operator=(const CellSteps&) = delete;
     void run(Input& input);
     std::uint32_t starts() const { return cell_.memory.starts_total; }
+    std::size_t requests() const { return requests_; }  // answered so far
 
     static constexpr std::size_t max_steps = 300;
 
@@ -62,6 +63,7 @@ class CellSteps {
     CellState cell_;
     std::map<Uuid, int> started_;
     std::uint32_t seq_ = 0;
+    std::size_t requests_ = 0;
 };
 
 }  // namespace qchopper

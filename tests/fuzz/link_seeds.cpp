@@ -130,6 +130,41 @@ Encoded pdu_seed(const std::string& name, const Bytes& steps, std::uint32_t star
     return {"pdu", name, steps};
 }
 
+void add_frame(Bytes& stream, const Bytes& pdu, std::uint8_t unit = 1) {
+    const std::size_t length = pdu.size() + 1;
+    stream.insert(stream.end(), {0, 1, 0, 0, static_cast<std::uint8_t>(length >> 8U),
+                                 static_cast<std::uint8_t>(length & 0xFFU), unit});
+    for (const std::uint8_t byte : pdu) stream.push_back(byte);
+}
+
+Bytes write_of(const Block& block, const Registers& registers) {
+    Bytes pdu{16, static_cast<std::uint8_t>(block.base >> 8U), static_cast<std::uint8_t>(block.base & 0xFFU),
+              0,  static_cast<std::uint8_t>(registers.size()), static_cast<std::uint8_t>(2 * registers.size())};
+    for (const std::uint16_t word : registers) {
+        pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
+        pdu.push_back(static_cast<std::uint8_t>(word & 0xFFU));
+    }
+    return pdu;
+}
+
+// Byte 0 is for fuzz_stream.cpp; then a read of STATUS, a CLAIM, a heartbeat, a chunk, a function that is not served,
+// a unit that is not there, and a header that is none.
+Bytes stream_seed() {
+    Command claim;
+    claim.command = CellCommand::claim;
+    claim.epoch = claim.seq = 1;
+    claim.owner = 2;
+    Bytes stream{7};
+    add_frame(stream, {4, 0, 0, 0, 100});
+    add_frame(stream, write_of(command_block, encode(claim)));
+    add_frame(stream, write_of(heartbeat_block, encode(Heartbeat{1, 2, 3})));
+    add_frame(stream, write_of(chunk_block, encode(Chunk{0, {1, 2, 3}, 9})));
+    add_frame(stream, {43, 14, 1, 0});
+    add_frame(stream, {3, 0, 0, 0, 60}, 99);
+    stream.insert(stream.end(), {0, 1, 0, 7, 0, 6, 1, 4});
+    return stream;
+}
+
 }  // namespace
 
 std::vector<Encoded> link_seeds() {
@@ -153,6 +188,7 @@ std::vector<Encoded> link_seeds() {
             pdu_seed("holding-job", whole_job(4), 1),
             pdu_seed("cut-off", cut_off(), 1),
             pdu_seed("reads", reads(), 0),
+            {"stream", "all-kinds", stream_seed()},
             {"memory", "two-jobs", some_memory()}};
 }
 

@@ -198,6 +198,7 @@ struct DryRunArguments : DryRunRequest {};
 
 struct CellSimArguments {
     std::string listen = "127.0.0.1:15020";
+    std::vector<std::string> allow;  // numeric addresses that may connect; loopback always may
     std::filesystem::path drop;
     std::string consent = "auto";
     std::optional<std::filesystem::path> store;

@@ -408,6 +408,10 @@ struct Parser {
     void add_cell_sim() {
         CLI::App* c = app.add_subcommand("cell-sim", "run a simulated cell until stopped");
         c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
+        c->add_option("--allow", cell_sim.allow,
+                      "ADDRESS,...: the numeric addresses that may connect, besides 127.0.0.1; needed to listen on any "
+                      "other address")
+            ->delimiter(',');
         c->add_option("--drop", cell_sim.drop, "the folder where job files arrive");
         c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
             ->check(one_of({"auto", "ask", "never"}));

@@ -71,9 +71,15 @@ std::string own_address() {
     return {};
 }
 
-RawSocket::RawSocket(std::uint16_t port, const std::string& host)
+RawSocket::RawSocket(std::uint16_t port, const std::string& host, const std::string& from)
     : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
+    if (!from.empty()) {
+        address.sin_family = AF_INET;
+        inet_pton(AF_INET, from.c_str(), &address.sin_addr);
+        if (bind(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+            throw std::runtime_error("no such address here");
+    }
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     inet_pton(AF_INET, host.c_str(), &address.sin_addr);

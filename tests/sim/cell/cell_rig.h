@@ -36,7 +36,8 @@ std::string own_address();
 // A TCP connection that sends any bytes.
 class RawSocket {
  public:
-    explicit RawSocket(std::uint16_t port, const std::string& host = "127.0.0.1");
+    // From this numeric address; empty: the one that the system chooses.
+    explicit RawSocket(std::uint16_t port, const std::string& host = "127.0.0.1", const std::string& from = {});
     ~RawSocket();
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;

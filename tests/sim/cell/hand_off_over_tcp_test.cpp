@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/wire/device_error.h"
+#include "sim/cell/script.h"
 #include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper {
@@ -297,19 +298,17 @@ TEST(HandOffOverTcp, QueriesOfAnotherClientOvertakeTheAcknowledgementsAndNothing
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
 }
 
+void turn_power(CellSim& cell, const std::string& how) {
+    for (const ScriptLine& line : parse_script("power " + how + "\n", "test")) cell.perform(line);
+}
+
 TEST(HandOffOverTcp, TheFirstStatusIsAskedForAgainAndWhatFailedIsNamed) {
     const Rig rig;
-    // Eight connections are all that the cell has; the ninth is closed at once.
-    std::vector<std::unique_ptr<rig::RawSocket>> others;
-    for (int n = 0; n < 8; ++n) {
-        others.push_back(std::make_unique<rig::RawSocket>(rig.cell->port()));
-        others.back()->send(rig::frame(1, rig::read_request(4, 0, 1)));
-        EXPECT_EQ(others.back()->receive(11).size(), 11U);
-    }
+    turn_power(*rig.cell, "off");  // it closes each connection at once
     ModbusTcpBus bus({"127.0.0.1", rig.cell->port()});
     try {
         read_first_status(bus, "cell-1", {});
-        FAIL() << "the cell had no connection left";
+        FAIL() << "the cell was off";
     } catch (const DeviceError& error) {
         EXPECT_EQ(error.fault, DeviceFault::unreachable);
         EXPECT_NE(std::string(error.what()).find("cell-1: the cell does not answer"), std::string::npos)
@@ -317,7 +316,7 @@ TEST(HandOffOverTcp, TheFirstStatusIsAskedForAgainAndWhatFailedIsNamed) {
     }
     std::thread leaving([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(600));
-        others.clear();
+        turn_power(*rig.cell, "on");
     });
     const std::optional<Status> status = read_first_status(bus, "cell-1", {});
     leaving.join();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "devices/wire/codec.h"
 #include "tests/sim/cell/cell_bench.h"
 
 namespace qchopper {
@@ -42,6 +43,28 @@ TEST(Fence, ASecondDispatcherWithTheSameEpochNumberIsNotTheOwner) {
     EXPECT_EQ(bench.cell.ack.detail, owner);
     EXPECT_EQ(bench.claim(owner, secret + 1), AckResult::lease_busy);  // the same number, but not the same one
     EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ok);
+}
+
+TEST(Fence, DamagedCommandsAreCountedAllAndToldOnceAMinute) {
+    Bench bench;
+    std::vector<std::string> lines;
+    bench.hooks.log = [&](const std::string& line) { lines.push_back(line); };
+    Registers damaged = encode(Command{1, 1, CellCommand::claim, {}, 0, 0, 0, {}, owner});
+    damaged[5] ^= 1U;
+    const auto send = [&](int count) {
+        for (int n = 0; n < count; ++n) receive_command(bench.cell, damaged, bench.now, bench.hooks);
+    };
+    send(500);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0], "a command that cannot be trusted: BAD_CRC");
+    bench.now.steady_ms += 59000;
+    send(1);
+    EXPECT_EQ(lines.size(), 1U);
+    bench.now.steady_ms += 1000;
+    send(1);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[1], "a command that cannot be trusted: BAD_CRC, and 500 before it since the last such line");
+    EXPECT_EQ(bench.cell.bad_frames, 502);
 }
 
 TEST(Fence, ARefusedClaimChangesNothing) {
