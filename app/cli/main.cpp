@@ -69,7 +69,8 @@ bool may_end_anywhere(const Arguments& arguments) {
     if (submit != nullptr && submit->engine == "local") return false;
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
            !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<ServeArguments>(command) &&
-           !std::holds_alternative<CellControlArguments>(command);
+           !std::holds_alternative<CellControlArguments>(command) &&
+           !std::holds_alternative<CellCheckArguments>(command);
 }
 
 // Throws nothing.

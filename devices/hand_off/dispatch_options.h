@@ -50,6 +50,7 @@ struct CellPast {
     std::uint32_t owner = 0;         // of the last CLAIM
     std::uint32_t secret = 0;
     std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
+    bool operator==(const CellPast&) const = default;
 };
 
 // What is known of a job.
@@ -58,6 +59,7 @@ struct JobPast {
     bool start_sent = false;  // START may have arrived
     bool is_started = false;
     std::uint32_t start_boots = 0;  // BOOT_COUNT before its START
+    bool operator==(const JobPast&) const = default;
 };
 
 // The owner goes on while its lease may live; owner 0: draw a new one. The job is one that is taken up.

@@ -15,7 +15,49 @@ JournalJob* job_of(JournalHistory& history, const Uuid& id) {
     return found == history.jobs.rend() ? nullptr : &*found;
 }
 
+// The bits of JournalEvent::marks of an exported job, and of a head.
+constexpr std::uint16_t was_stored = 1;
+constexpr std::uint16_t was_start_sent = 2;
+constexpr std::uint16_t was_started = 4;
+constexpr std::uint16_t had_ended = 8;
+constexpr std::uint16_t had_verdict = 16;
+constexpr std::uint16_t was_settled = 32;
+constexpr std::uint16_t was_forgotten = 64;
+constexpr std::uint16_t lease_may_have_lived = 1;
+constexpr std::uint16_t store_was_lost = 2;
+
 using enum JournalKind;
+
+void note_head(JournalHistory& history, const JournalEvent& event) {
+    history.epoch = event.epoch;
+    history.seq = event.seq;
+    history.owner = event.owner;
+    history.secret = event.secret;
+    history.grant = event.grant;
+    history.lease_may_live = (event.marks & lease_may_have_lived) != 0;
+    history.store_is_lost = (event.marks & store_was_lost) != 0;
+}
+
+JournalJob exported_job(const JournalEvent& event) {
+    const auto has = [&](std::uint16_t mark) { return (event.marks & mark) != 0; };
+    JournalJob job;
+    job.job_id = event.job_id;
+    job.file_sha256 = event.file_sha256;
+    job.ticket = event.ticket;
+    job.created_ms = event.created_ms;
+    job.started_ms = event.started_ms;
+    job.ended_ms = event.ended_ms;
+    job.job_result = event.job_result;
+    job.is_stored = has(was_stored);
+    job.start_sent = has(was_start_sent);
+    job.is_started = has(was_started);
+    job.has_ended = has(had_ended);
+    if (has(had_verdict)) job.start_outcome = event.start_outcome;
+    job.is_settled = has(was_settled);
+    job.is_forgotten = has(was_forgotten);
+    job.is_exported = true;
+    return job;
+}
 
 void note_of_cell(JournalHistory& history, const JournalEvent& event) {
     if (event.kind == identity || event.kind == store_accepted) history.store = event.store;
@@ -43,6 +85,7 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
     const bool has_number = event.kind == start_intent || event.kind == command;
     if (has_number && event.owner == history.owner) history.seq = std::max(history.seq, event.seq);
     if (event.kind == granted) history.grant = event.grant;
+    if (event.kind == head) note_head(history, event);
 }
 
 void note_of_job(JournalJob& job, const JournalRow& row, std::uint32_t boots) {
@@ -95,8 +138,45 @@ std::string why_part_must_wait(const JournalHistory& history, const WireTicket& 
            " is not sent: the journal has no complete end of part " + std::to_string(ticket.part - 1);
 }
 
+JournalEvent exported_event(const JournalJob& job) {
+    JournalEvent event;
+    event.kind = JournalKind::exported;
+    event.job_id = job.job_id;
+    event.file_sha256 = job.file_sha256;
+    event.ticket = job.ticket;
+    event.job_result = job.job_result;
+    event.start_outcome = job.start_outcome.value_or(StartOutcome::unknown);
+    event.created_ms = job.created_ms;
+    event.started_ms = job.started_ms;
+    event.ended_ms = job.ended_ms;
+    const std::pair<bool, std::uint16_t> marks[] = {
+        {job.is_stored, was_stored},      {job.start_sent, was_start_sent},   {job.is_started, was_started},
+        {job.has_ended, had_ended},       {!!job.start_outcome, had_verdict}, {job.is_settled, was_settled},
+        {job.is_forgotten, was_forgotten}};
+    for (const auto& [is_so, mark] : marks) {
+        if (is_so) event.marks = static_cast<std::uint16_t>(event.marks | mark);
+    }
+    return event;
+}
+
+JournalEvent head_event(const JournalHistory& history, const JournalHead& head) {
+    JournalEvent event;
+    event.kind = JournalKind::head;
+    event.rows = static_cast<std::uint32_t>(head.number);
+    event.file_sha256 = sha256_from_hex(head.hash).value_or(Sha256{});
+    event.epoch = history.epoch;
+    event.seq = history.seq;
+    event.owner = history.owner;
+    event.secret = history.secret;
+    event.grant = history.grant;
+    event.marks = static_cast<std::uint16_t>((history.lease_may_live ? lease_may_have_lived : 0) |
+                                             (history.store_is_lost ? store_was_lost : 0));
+    return event;
+}
+
 JournalHistory history_of(std::span<const JournalRow> rows) {
     JournalHistory history;
+    std::ptrdiff_t exported_jobs = 0;
     bool is_releasing = false;
     for (const JournalRow& row : rows) {
         const JournalEvent& event = row.event;
@@ -104,7 +184,11 @@ JournalHistory history_of(std::span<const JournalRow> rows) {
         if (event.kind == claim) is_releasing = false;
         if (event.kind == command && event.command == CellCommand::release) is_releasing = true;
         if (event.kind == closed && is_releasing) history.lease_may_live = false;
-        if (event.kind == created) {
+        if (event.kind == exported) {  // older than all jobs that have rows
+            if (const JournalJob* known = job_of(history, event.job_id); known == nullptr) {
+                history.jobs.insert(history.jobs.begin() + exported_jobs++, exported_job(event));
+            }
+        } else if (event.kind == created) {
             JournalJob job;
             job.job_id = event.job_id;
             job.file_sha256 = event.file_sha256;

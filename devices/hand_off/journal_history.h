@@ -30,6 +30,8 @@ struct JournalJob : JobPast {
     std::optional<StartOutcome> start_outcome;  // of the last hand-off that came to its end
     bool is_settled = false;    // it was open when the cell lost its memory: what became of it is UNKNOWN
     bool is_forgotten = false;  // it is older than the memory of the cell
+    bool is_exported = false;   // its rows were exported and removed
+    bool operator==(const JournalJob&) const = default;
 
     bool may_have_started() const {
         return is_started || is_settled || start_outcome == StartOutcome::unknown ||
@@ -58,5 +60,10 @@ HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::u
 std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket);
 
 JournalHistory history_of(std::span<const JournalRow> rows);
+
+// Rows from which history_of() makes the same job again, with is_exported, and the same past of the cell but for its
+// store; `head` is the last row that was removed.
+JournalEvent exported_event(const JournalJob& job);
+JournalEvent head_event(const JournalHistory& history, const JournalHead& head);
 
 }  // namespace qchopper

@@ -14,16 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "devices/journal/journal_event.h"
+#include "devices/journal/journal_content.h"
 
 namespace qchopper {
 
-struct JournalCell {
-    std::uint16_t cell_id = 0;
-    bool simulated = false;
-    std::string endpoint;  // "127.0.0.1:15020" of a simulated cell; empty for a real one, which its id names alone
-    bool operator==(const JournalCell&) const = default;
-};
 // "cell 7", "the simulated cell 7 at 127.0.0.1:15020"
 std::string to_text(const JournalCell& cell);
 // The name of the folder of its journal: "cell-7", "simulated-7-at-127.0.0.1_15020".
@@ -31,18 +25,6 @@ std::string folder_name(const JournalCell& cell);
 
 // Milliseconds since 1970 by the clock of this PC.
 std::uint64_t unix_ms();
-
-struct JournalRow {
-    std::int64_t number = 0;    // from 1, without gaps
-    std::uint64_t unix_ms = 0;  // nothing is decided by it
-    JournalEvent event;
-};
-
-struct JournalContent {
-    JournalCell cell;
-    std::vector<JournalRow> rows;
-    std::string hash;  // of the last row, 64 digits
-};
 
 // Reads and verifies the journal in `folder`, also while another process writes it. Throws InputError: missing if there
 // is none or it is no regular file, config with the number of the row if the chain or a row is damaged or missing.
@@ -62,11 +44,21 @@ class Journal {
     // Throws InputError (io) if the row could not be brought to the disk; then it is not in the journal.
     void append(const JournalEvent& event);
 
+    // Appends `events` and removes the rows up to head.number, both or nothing. One of the events is of kind head and
+    // holds number and hash of `head`. Throws InputError (io) if that could not be brought to the disk. Precondition:
+    // the rows are on the disk elsewhere.
+    void remove_exported(const JournalHead& head, const std::vector<JournalEvent>& events);
+
     const JournalContent& content() const;
 
  private:
     struct Store;
     std::unique_ptr<Store> store_;
 };
+
+// Makes `folder` and in it a journal of the rows of `content` up to number `last`, with their hashes, for
+// read_journal(); it is on the disk when this returns. Throws InputError: create if the folder is there or cannot be
+// made, io if it cannot be written.
+void write_exported(const std::filesystem::path& folder, const JournalContent& content, std::int64_t last);
 
 }  // namespace qchopper

@@ -16,12 +16,14 @@ namespace {
 template <class Value>
 concept Number = std::is_integral_v<Value> || std::is_enum_v<Value>;
 template <Number Value>
-constexpr std::uint32_t largest = sizeof(Value) == 2 ? 0xFFFF : 0xFFFFFFFF;
+constexpr std::uint64_t largest = sizeof(Value) == 2   ? 0xFFFF
+                                  : sizeof(Value) == 4 ? 0xFFFFFFFF
+                                                       : ~std::uint64_t{0};
 template <>
-constexpr std::uint32_t largest<StartOutcome> = static_cast<std::uint32_t>(StartOutcome::unknown);
+constexpr std::uint64_t largest<StartOutcome> = static_cast<std::uint64_t>(StartOutcome::unknown);
 
 std::string written(Number auto number) {
-    return std::to_string(static_cast<std::uint32_t>(number));
+    return std::to_string(static_cast<std::uint64_t>(number));
 }
 std::string written(const Uuid& id) {
     return to_hex(std::span<const std::uint8_t>(id));
@@ -35,7 +37,7 @@ std::string written(const std::vector<std::uint16_t>& registers) {
 
 template <Number Value>
 bool read(std::string_view text, Value& value) {
-    std::uint32_t number = 0;
+    std::uint64_t number = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (fault != std::errc() || end != text.data() + text.size() || number > largest<Value>) return false;
     value = static_cast<Value>(number);
@@ -92,12 +94,18 @@ constexpr FieldRow version = field<&JournalEvent::store, &SeenStore::version>("v
 constexpr FieldRow boots = field<&JournalEvent::store, &SeenStore::boot_count>("boots");
 constexpr FieldRow held = field<&JournalEvent::store, &SeenStore::epoch_held>("held");
 constexpr FieldRow total = field<&JournalEvent::store, &SeenStore::starts_total>("total");
+constexpr FieldRow created_ms = field<&JournalEvent::created_ms>("created");
+constexpr FieldRow started_ms = field<&JournalEvent::started_ms>("started");
+constexpr FieldRow ended_ms = field<&JournalEvent::ended_ms>("ended");
+constexpr FieldRow marks = field<&JournalEvent::marks>("marks");
+constexpr FieldRow rows = field<&JournalEvent::rows>("rows");
+constexpr FieldRow hash = field<&JournalEvent::file_sha256>("hash");
 }  // namespace f
 
 struct KindRow {
     JournalKind kind;
     const char* name;
-    std::array<FieldRow, 5> fields;  // those without a name are not there
+    std::array<FieldRow, 9> fields;  // those without a name are not there
 };
 using Is = JournalKind;
 constexpr std::array<KindRow, journal_kinds> kind_rows{{
@@ -117,6 +125,10 @@ constexpr std::array<KindRow, journal_kinds> kind_rows{{
     {Is::store_lost, "STORE_LOST", {f::store, f::version, f::boots, f::held, f::total}},
     {Is::store_accepted, "STORE_ACCEPTED", {f::store, f::version, f::boots, f::held, f::total}},
     {Is::granted, "GRANTED", {f::epoch, f::owner, f::grant}},
+    {Is::exported,
+     "EXPORTED",
+     {f::job, f::sha256, f::ticket, f::result, f::start_outcome, f::marks, f::created_ms, f::started_ms, f::ended_ms}},
+    {Is::head, "HEAD", {f::rows, f::hash, f::epoch, f::seq, f::owner, f::secret, f::grant, f::marks}},
 }};
 
 const KindRow& row_of(JournalKind kind) {
@@ -210,6 +222,11 @@ std::string describe(const JournalEvent& event) {
         case Is::granted:
             return "the cell granted epoch " + std::to_string(event.epoch) + " under the number " +
                    std::to_string(event.grant);
+        case Is::exported:
+            return "the rows of this job were exported and removed";
+        case Is::head:
+            return "the rows up to " + std::to_string(event.rows) +
+                   " were exported and removed; the last one had the hash " + to_hex(event.file_sha256).substr(0, 12);
     }
     return {};
 }

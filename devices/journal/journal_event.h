@@ -37,9 +37,11 @@ enum class JournalKind : std::uint8_t {
     closed,          // the hand-off ended with a verdict
     store_lost,      // the cell has another memory than before
     store_accepted,  // the operator accepts the memory that the cell has now
-    granted          // the cell has granted a CLAIM and drawn a number for it, and knew the number of the one before
+    granted,         // the cell has granted a CLAIM and drawn a number for it, and knew the number of the one before
+    exported,        // what the next dispatcher must know of a job whose rows were exported and removed
+    head             // rows up to a number were exported and removed, and what they had said of the cell
 };
-constexpr std::size_t journal_kinds = 16;
+constexpr std::size_t journal_kinds = 18;
 
 // What the cell shows of its memory.
 struct SeenStore {
@@ -71,6 +73,11 @@ struct JournalEvent {
     JobResult job_result = JobResult::none;
     std::uint32_t starts = 0;
     StartOutcome start_outcome = StartOutcome::unknown;
+    std::uint64_t created_ms = 0;
+    std::uint64_t started_ms = 0;
+    std::uint64_t ended_ms = 0;
+    std::uint16_t marks = 0;  // what else is known of an exported job: devices/hand_off/journal_history.cpp
+    std::uint32_t rows = 0;   // number of the last row that was removed
     SeenStore store;
     bool operator==(const JournalEvent&) const = default;
 };

@@ -221,10 +221,27 @@ struct JournalArguments {
     bool shows = true;             // else it is only verified
 };
 
+struct JournalJobsArguments {
+    std::vector<std::filesystem::path> journals;  // empty: all
+    std::optional<std::string> since;             // a day or time, UTC
+    bool is_csv = false;
+};
+
+struct JournalExportArguments {
+    std::filesystem::path journal;
+    std::string before;  // a day or time, UTC
+    std::filesystem::path out;
+};
+
 struct CellControlArguments : CellChoiceArguments {
     std::string action;  // status, hold, unhold, stop, abort, clear, reset, take-over, accept-store
     std::optional<std::uint32_t> code;
     bool yes = false;
+};
+
+struct CellCheckArguments {
+    std::string to;    // HOST:PORT
+    bool yes = false;  // to every question
 };
 
 struct ServeArguments {
@@ -273,8 +290,9 @@ struct Arguments {
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
                  CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
                  GatherArguments, VerifyArguments, DryRunArguments, CellSimArguments, DispatchArguments,
-                 JournalArguments, CellControlArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments,
-                 ConsoleMeshArguments, ConsolePaintArguments>
+                 JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
+                 CellCheckArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments, ConsoleMeshArguments,
+                 ConsolePaintArguments>
         command;
 };
 

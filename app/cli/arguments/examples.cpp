@@ -86,9 +86,13 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse)"},
     {"journal", R"(  qchopper journal show
   qchopper journal show cell-7 --json
-  qchopper journal verify)"},
+  qchopper journal verify
+  qchopper journal jobs --since 2026-11-22
+  qchopper journal jobs cell-7 archive/cell-7-until-2026 --csv
+  qchopper journal export cell-7 --before 2026-01-01 -o archive/cell-7-until-2026)"},
     {"cell", R"(  qchopper cell status --to 127.0.0.1:15020
   qchopper cell hold --to 127.0.0.1:15020
+  qchopper cell check 192.168.7.20:502
   qchopper cell stop --cell cells/kr60-ha.toml
   qchopper cell take-over --to 127.0.0.1:15020 --code 4711
   qchopper cell accept-store --to 127.0.0.1:15020)"},

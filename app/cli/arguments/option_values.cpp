@@ -265,4 +265,17 @@ OptionCheck one_of(const std::vector<std::string>& values) {
     };
 }
 
+std::optional<std::uint64_t> ms_from_utc(std::string_view text) {
+    std::string whole(text);
+    if (whole.size() == 10) whole += " 00:00:00";
+    std::tm parts{};
+    const char* const end = ::strptime(whole.c_str(), "%Y-%m-%d %H:%M:%S", &parts);
+    if (end == nullptr || *end != '\0') return std::nullopt;
+    const std::time_t seconds = ::timegm(&parts);
+    if (seconds < 0) return std::nullopt;
+    const std::uint64_t unix_ms = static_cast<std::uint64_t>(seconds) * 1000;
+    if (utc_text(unix_ms) != whole) return std::nullopt;  // the 31st of February
+    return unix_ms;
+}
+
 }  // namespace qchopper

@@ -73,4 +73,8 @@ OptionCheck read_by(Reader reader, const std::string& what) {
 // The formats of scans, for help texts.
 const std::string scan_formats = std::string(mesh_formats) + ", packed by gzip or not";
 
+// Milliseconds since 1970 of "2026-11-22 17:43:28" in UTC, as utc_text() writes it, or of a day alone, "2026-11-22",
+// which is its beginning. Nothing for any other text, for no day or time, and before 1970.
+std::optional<std::uint64_t> ms_from_utc(std::string_view text);
+
 }  // namespace qchopper

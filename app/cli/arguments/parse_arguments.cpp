@@ -103,7 +103,10 @@ struct Parser {
     DispatchArguments dispatch;
     JournalArguments journal_show;
     JournalArguments journal_verify;
+    JournalJobsArguments journal_jobs;
+    JournalExportArguments journal_export;
     CellControlArguments cell_control;
+    CellCheckArguments cell_check;
     SchemaArguments schema;
     ServeArguments console;
     ConsoleWorkerArguments console_worker;
@@ -463,6 +466,28 @@ struct Parser {
         chain->add_option("JOURNAL", journal_verify.folder, "its folder, or its name in the state folder (all)");
         journal_verify.shows = false;
         add_common(chain, common, [this] { common.command = journal_verify; });
+        add_journal_jobs(c);
+        add_journal_export(c);
+    }
+
+    void add_journal_jobs(CLI::App* journal) {
+        CLI::App* c = journal->add_subcommand("jobs", "list the jobs of the journals, with sums by order");
+        c->add_option("JOURNAL", journal_jobs.journals, "folders, or names in the state folder (all)");
+        c->add_option("--since", journal_jobs.since,
+                      "only jobs of this day or time and later, and open ones: 2026-11-22, in UTC");
+        c->add_flag("--csv", journal_jobs.is_csv, "comma-separated values, a line for each job, without sums");
+        add_common(c, common, [this] { common.command = journal_jobs; });
+    }
+
+    void add_journal_export(CLI::App* journal) {
+        CLI::App* c = journal->add_subcommand(
+            "export", "move the rows of closed jobs to a journal of their own; the chain goes on from there");
+        c->add_option("JOURNAL", journal_export.journal, "its folder, or its name in the state folder")->required();
+        c->add_option("--before", journal_export.before,
+                      "jobs whose last row is older than this day or time: 2026-11-22, in UTC")
+            ->required();
+        c->add_option("-o,--out", journal_export.out, "the folder to make")->required();
+        add_common(c, common, [this] { common.command = journal_export; });
     }
 
     void add_cell() {
@@ -495,6 +520,11 @@ struct Parser {
                 common.command = cell_control;
             });
         }
+        CLI::App* check = c->add_subcommand(
+            "check", "take the controller of an integrator through the handshake and say what deviates; never starts");
+        check->add_option("HOST:PORT", cell_check.to, "of the cell")->required();
+        check->add_flag("--yes", cell_check.yes, "do not ask before Clear, Reset and PREPARE");
+        add_common(check, common, [this] { common.command = cell_check; });
     }
 };
 

@@ -1,4 +1,4 @@
-// What `qchopper cell` shows: what the cell says of itself, or how it answered a command. O(1).
+// What `qchopper cell` shows: what the cell says of itself, how it answered a command, or what deviates. O(rules).
 
 #pragma once
 
@@ -7,6 +7,7 @@
 
 #include "app/dispatch/cell_commands.h"
 #include "app/report/document.h"
+#include "devices/link_check/link_check.h"
 
 namespace qchopper {
 
@@ -15,5 +16,14 @@ Document document(const CellStatusReport& report);
 
 std::vector<std::string> lines(const CellControlReport& report);
 Document document(const CellControlReport& report);
+
+// What `qchopper cell check` found.
+struct LinkCheckReport {
+    std::string endpoint;
+    LinkCheck check;
+};
+
+std::vector<std::string> lines(const LinkCheckReport& report);
+Document document(const LinkCheckReport& report);
 
 }  // namespace qchopper

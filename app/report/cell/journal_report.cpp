@@ -4,45 +4,29 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/report/cell/journal_jobs.h"
 #include "app/report/columns.h"
 #include "app/report/report_json.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "base/uuid.h"
 #include "devices/hand_off/journal_history.h"
-#include "devices/wire/codec.h"
 
 namespace qchopper {
-namespace {
 
-// A job in words for programs.
-struct JournalJobReport {
-    JournalJob job;
-    WireTicket ticket;
-
-    std::string state() const {
-        if (job.has_ended) return "ended";
-        if (job.is_settled || job.start_outcome == StartOutcome::unknown) return "unknown";
-        return job.is_open() ? "open" : "not_started";
-    }
-};
-
-template <class V, Of<JournalJobReport> T>
+template <class V, Of<ExportedRows> T>
 void fields(V& v, T& report) {
-    const JournalJob& job = report.job;
-    const auto time = [](std::uint64_t ms) { return ms == 0 ? std::optional<std::uint64_t>() : ms; };
-    v.written("job_id", [&] { return to_text(job.job_id); });
-    v.written("sha256", [&] { return to_hex(job.file_sha256); });
-    v.written("file", [&] { return printable(report.ticket.file_name); });
-    v.written("part", [&] { return report.ticket.part; });
-    v.written("parts", [&] { return report.ticket.parts; });
-    v.written("created_ms", [&] { return job.created_ms; });
-    v.written("started_ms", [&] { return time(job.started_ms); });
-    v.written("ended_ms", [&] { return time(job.ended_ms); });
-    v.written("state", [&] { return report.state(); });
-    v.written("result",
-              [&] { return job.has_ended ? std::optional<std::string>(name(job.job_result)) : std::nullopt; });
+    const bool is_some = report.head.number != 0;
+    v.written("schema", [] { return "qchopper-journal-export-1"; });
+    v("journal", report.journal);
+    v.written("out", [&] { return is_some ? std::optional(report.out) : std::nullopt; });
+    v.written("exported_rows", [&] { return report.head.number; });
+    v.written("hash", [&] { return is_some ? std::optional(report.head.hash) : std::nullopt; });
+    v("jobs", report.jobs);
+    v("why_not_more", report.why_not_more);
 }
+
+namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -56,18 +40,16 @@ std::size_t open_jobs(const JournalReport& report) {
     return open;
 }
 
+std::string exported_text(const JournalContent& content) {
+    if (content.head.number == 0) return {};
+    return "; the rows up to " + std::to_string(content.head.number) + " were exported, the last with the hash " +
+           content.head.hash.substr(0, 16);
+}
+
 std::string verdict_line(const JournalReport& report) {
     return "the chain is whole: " + std::to_string(report.content.rows.size()) + " rows, " +
            std::to_string(history_of(report.content.rows).jobs.size()) + " jobs, " + std::to_string(open_jobs(report)) +
-           " of them open; last hash " + report.content.hash.substr(0, 16);
-}
-
-std::vector<JournalJobReport> jobs_of(const JournalReport& report) {
-    std::vector<JournalJobReport> jobs;
-    for (const JournalJob& job : history_of(report.content.rows).jobs) {
-        jobs.push_back({job, decode<WireTicket>(job.ticket).value});
-    }
-    return jobs;
+           " of them open; last hash " + report.content.hash.substr(0, 16) + exported_text(report.content);
 }
 
 Json row_json(const JournalRow& row) {
@@ -99,6 +81,24 @@ std::vector<std::string> lines(const std::vector<JournalReport>& reports) {
     return text;
 }
 
+std::vector<std::string> lines(const ExportedRows& report) {
+    std::vector<std::string> text;
+    if (report.head.number == 0) {
+        text.push_back("nothing was exported from " + report.journal);
+    } else {
+        text.push_back("the rows up to " + std::to_string(report.head.number) + ", of " +
+                       counted(report.jobs, "closed job") + ", were exported to " + report.out + " and removed from " +
+                       report.journal);
+        text.push_back("the chain goes on from the hash " + report.head.hash);
+    }
+    if (!report.why_not_more.empty()) text.push_back(report.why_not_more);
+    return text;
+}
+
+Document document(const ExportedRows& report) {
+    return compose(json_of<ExportedRows, Json>(report));
+}
+
 Document document(const std::vector<JournalReport>& reports) {
     Json journals = Json::array();
     for (const JournalReport& report : reports) {
@@ -111,7 +111,8 @@ Document document(const std::vector<JournalReport>& reports) {
                     {"row_count", report.content.rows.size()},
                     {"open_jobs", open_jobs(report)}};
         json_values::JsonWriter writer(one);
-        writer("jobs", jobs_of(report));
+        writer("jobs", jobs_of(report.content));
+        if (report.content.head.number != 0) one["exported_rows"] = report.content.head.number;
         if (report.shows) {
             one["rows"] = Json::array();
             for (const JournalRow& row : report.content.rows) one["rows"].push_back(row_json(row));

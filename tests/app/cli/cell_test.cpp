@@ -3,9 +3,15 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "app/cli/arguments/option_values.h"
 #include "app/cli/exit_code.h"
+#include "base/text.h"
+#include "devices/journal/journal.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -123,6 +129,54 @@ TEST_F(CellCommands, AKilledDispatchIsTakenUpAndTheJournalTellsIt) {
     for (const Json& row : journals["journals"][0]["rows"]) kinds += row["kind"].get<std::string>() + " ";
     EXPECT_TRUE(has(kinds, "START_INTENT STARTED ")) << kinds;
     EXPECT_TRUE(has(kinds, "RESUMED ")) << kinds;
+    stop_cell();
+}
+
+TEST(OptionValues, ATimeIsReadAsItIsWritten) {
+    EXPECT_EQ(ms_from_utc("1970-01-01 00:00:00"), 0U);
+    EXPECT_EQ(ms_from_utc("2026-11-27 23:59:59"), 1'795'823'999'000U);
+    EXPECT_EQ(ms_from_utc("2026-11-28"), 1'795'824'000'000U);
+    EXPECT_EQ(ms_from_utc("2024-02-29"), 1'709'164'800'000U);
+    for (const char* wrong :
+         {"", "2026", "2026-11-31", "2023-02-29", "2026-11-28 24:00:00", "2026-11-28 1:2:3", "28.11.2026",
+          "2026-11-28T00:00:00", "2026-11-28 00:00:00Z", " 2026-11-28", "1969-12-31", "-026-11-28"}) {
+        EXPECT_EQ(ms_from_utc(wrong), std::nullopt) << wrong;
+    }
+}
+
+TEST_F(CellCommands, TheJobsOfTheJournalAreListedExportedAndStayKnown) {
+    start_cell("100000");
+    EXPECT_EQ(dispatch().code, 0);
+    const Json listed = Json::parse(run({"journal", "jobs", "--json"}, false).out);
+    EXPECT_EQ(listed["schema"], "qchopper-journal-jobs-1");
+    ASSERT_EQ(listed["jobs"].size(), 1U);
+    EXPECT_EQ(listed["jobs"][0]["end"], "complete");
+    EXPECT_EQ(listed["jobs"][0]["consent_by"], "unknown");
+    EXPECT_GE(listed["jobs"][0]["took_s"], 0);
+    EXPECT_EQ(listed["orders"][0]["pieces_complete"], 1);
+    EXPECT_EQ(listed["orders"][0]["piece_count"], 3);
+    // The same job, in the same words, as journal show has it.
+    const Json shown = Json::parse(run({"journal", "show", "--json"}, false).out)["journals"][0];
+    EXPECT_EQ(shown["jobs"][0], listed["jobs"][0]);
+    const std::string csv = run({"journal", "jobs", "--csv"}, false).out;
+    EXPECT_TRUE(csv.starts_with("job_id,sha256,file,")) << csv;
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2) << csv;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // the options have whole seconds
+    EXPECT_TRUE(has(run({"journal", "jobs", "--since", utc_text(unix_ms())}, false).out, "no job"));
+    for (const char* option : {"2999-01-01", "2026-02-30", "yesterday"}) {
+        const Ended refused = run({"journal", "jobs", "--since", option}, false);
+        EXPECT_EQ(refused.code, exit_use) << option;
+        EXPECT_TRUE(has(refused.err, option)) << refused.err;
+    }
+    const std::string journal = fs::path(shown["folder"].get<std::string>()).filename();
+    const Ended exported = run({"journal", "export", journal, "--before", utc_text(unix_ms()), "-o", "old"}, false);
+    EXPECT_EQ(exported.code, 0) << exported.err;
+    EXPECT_TRUE(has(exported.out, "of 1 closed job, were exported to old")) << exported.out;
+    EXPECT_EQ(run({"journal", "verify"}, false).code, 0);
+    EXPECT_EQ(run({"journal", "verify", "old"}, false).code, 0);
+    const Json both = Json::parse(run({"journal", "jobs", journal, "old", "--json"}, false).out);
+    EXPECT_EQ(both["jobs"], listed["jobs"]);
+    EXPECT_TRUE(has(dispatch().out, "--again"));  // the journal still knows the file
     stop_cell();
 }
 

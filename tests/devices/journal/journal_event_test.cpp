@@ -28,6 +28,10 @@ JournalEvent full_event() {
     event.starts = 1;
     event.start_outcome = StartOutcome::unknown;
     event.store = {{9, 9}, 0x0101, 11, 12, 13};
+    event.created_ms = 0xFFFFFFFFFFFFFFFF;
+    event.started_ms = 1795824000000;
+    event.marks = 0xFFFF;
+    event.rows = 14;
     return event;
 }
 
@@ -55,6 +59,12 @@ TEST(JournalEvent, ARowHoldsWhatItsKindLists) {
     EXPECT_EQ(text_of(event), "job=01020300000000000000000000000000 epoch=4 seq=4294967295 owner=6 token=8");
     event.kind = JournalKind::closed;
     EXPECT_EQ(text_of(event), "job=01020300000000000000000000000000 verdict=2");
+    event.kind = JournalKind::head;
+    event.file_sha256 = {};
+    EXPECT_EQ(text_of(event),
+              "rows=14 hash=" + std::string(64, '0') + " epoch=4 seq=4294967295 owner=6 secret=7 grant=0 marks=65535");
+    event.kind = JournalKind::exported;
+    EXPECT_TRUE(text_of(event).ends_with("created=18446744073709551615 started=1795824000000 ended=0"));
     JournalEvent ticket = full_event();
     ticket.kind = JournalKind::created;
     EXPECT_EQ(event_from(JournalKind::created, text_of(ticket))->ticket, ticket.ticket);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/devices/wire/print_registers.h"
+#include "tests/devices/wire/print_structured_text.h"
 
 namespace qchopper {
 namespace {
@@ -115,6 +116,13 @@ TEST(Registers, TheDocumentIsWhatTheTablesPrint) {
     std::stringstream text;
     text << file.rdbuf();
     EXPECT_EQ(text.str(), print_registers()) << "write print_registers() to docs/developer/formats/registers.md";
+}
+
+TEST(Registers, TheStructuredTextIsWhatTheTablesPrint) {
+    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "user" / "cell-integration.st");
+    std::stringstream text;
+    text << file.rdbuf();
+    EXPECT_EQ(text.str(), print_structured_text()) << "write print_structured_text() to docs/user/cell-integration.st";
 }
 
 // The simulated cell must not share the logic that it is there to test, and nobody here needs geometry.
