@@ -10,6 +10,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/standard_input_lines.h"
+#include "app/dispatch/signing.h"
 #include "app/dispatch/simulated_limits.h"
 #include "app/report/command_line_text.h"
 #include "app/report/notices.h"
@@ -93,6 +94,10 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
         const std::lock_guard lock(terminal_mutex);
         std::cerr << printable(question) << " [y/N] " << std::endl;
     };
+    if (arguments.trusted) {
+        read_trusted_keys(*arguments.trusted);  // a list that cannot be read is said now
+        options.trusted_keys = cell_keys(*arguments.trusted, options.on_message);
+    }
     CellSim sim(options);
     sim.start();
     const bool is_ipv6 = address.host.find(':') != std::string::npos;

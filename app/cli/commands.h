@@ -31,6 +31,7 @@ int run(const WorkArguments& arguments, Terminal& terminal);
 int run(const SubmitArguments& arguments, Terminal& terminal);
 int run(const GatherArguments& arguments, Terminal& terminal);
 int run(const VerifyArguments& arguments, Terminal& terminal);
+int run(const KeysArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);

@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/confirm.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/passphrase.h"
 #include "app/report/command_line_text.h"
 
 namespace qchopper {
@@ -17,7 +18,12 @@ int show(const DispatchReport& report, const std::string& schema, Terminal& term
 }
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
-    const DispatchAnswer answer = dispatch_project(arguments, operator_at_terminal(), terminal.context());
+    terminal.set_unchanged(nothing_started);
+    DispatchRequest request = arguments;
+    if (arguments.signing.key) {
+        request.signing_key = open_own_key(*arguments.signing.key, arguments.signing.passphrase_fd);
+    }
+    const DispatchAnswer answer = dispatch_project(request, operator_at_terminal(), terminal.context());
     return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, "qchopper-dispatch-2",
                 terminal);
 }

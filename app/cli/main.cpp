@@ -61,8 +61,8 @@ int report_stop(Terminal& terminal) {
     return report(terminal, "stopped on request", "", Terminal::cancel_code());
 }
 
-// Whether a command may be ended in the middle of its work: all but those that lead a cell or other processes, or are a
-// cell.
+// Whether a command may be ended in the middle of its work: all but those that lead a cell or other processes, are a
+// cell, or ask for a passphrase.
 bool may_end_anywhere(const Arguments& arguments) {
     const auto& command = arguments.command;
     const auto* const submit = std::get_if<SubmitArguments>(&command);
@@ -70,7 +70,8 @@ bool may_end_anywhere(const Arguments& arguments) {
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
            !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<ServeArguments>(command) &&
            !std::holds_alternative<CellControlArguments>(command) &&
-           !std::holds_alternative<CellCheckArguments>(command);
+           !std::holds_alternative<CellCheckArguments>(command) &&
+           !std::holds_alternative<KeysArguments>(command);  // a terminal without echo is to be restored
 }
 
 // Throws nothing.

@@ -40,6 +40,7 @@ PieceJob job_of(const JobOrder& order) {
     }
     job.no_program_because = read.no_program_because;
     job.verdict = read_verdict(order.file);
+    job.signature = read_signature(order.file);
     job.unreachable_share = read.setup.access.unreachable_share();
     job.max_unreachable = read.max_unreachable;
     job.is_unreachable = is_unreachable(read.setup, read.max_unreachable);

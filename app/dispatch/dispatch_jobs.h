@@ -15,6 +15,7 @@
 #include "cam/job/ticket.h"
 #include "devices/hand_off/dispatch.h"
 #include "devices/journal/journal.h"
+#include "devices/keys/job_signature.h"
 
 namespace qchopper {
 
@@ -30,6 +31,7 @@ struct PieceJob {
     double unreachable_share = 0;       // of the surface
     double max_unreachable = 0;         // the limit of the job
     bool is_unreachable = false;        // more is out of reach than may be
+    FoundSignature signature = {};      // beside the job file
     std::string holding_problem = {};   // with what to do about it; empty: it is held, or that was not checked
 };
 

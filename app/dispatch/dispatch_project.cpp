@@ -5,6 +5,7 @@
 #include "app/dispatch/contact_cell.h"
 #include "app/dispatch/left_open.h"
 #include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/signing.h"
 #include "app/dispatch/state_folder.h"
 #include "base/error.h"
 #include "cam/cell/cell_check.h"
@@ -50,10 +51,18 @@ std::vector<Sentence> why_not_held(const std::vector<PieceJob>& jobs, const Oper
     return with(sentences, held_by_more);
 }
 
+std::vector<Sentence> why_not_signed(const ProjectJobs& ordered, const DispatchRequest& request) {
+    const TrustedKeys trusted = read_trusted_keys(trusted_keys_file(request.trusted));
+    std::vector<Sentence> why = plain_sentences(wrongly_signed_jobs(ordered, trusted, unix_ms()));
+    if (const auto key = why_not_signed_by(request.signing_key, ordered.cell, trusted)) why.push_back(*key);
+    return why;
+}
+
 // Checks 1 to 3: all jobs are looked at before the cell is. Empty: they may go to a simulated cell.
 std::vector<Sentence> why_not_any_cell(const ProjectJobs& ordered, const DispatchRequest& request,
                                        const Operator& person, const ProjectContext& context) {
     std::vector<Sentence> why = plain_sentences(unproven_jobs(ordered, false));
+    if (why.empty()) why = why_not_signed(ordered, request);
     if (why.empty() && !request.accept_unreachable) {
         why = with(unreachable_jobs(ordered.jobs), foam_may_stay);
     }
@@ -135,6 +144,7 @@ DispatchOptions options_of(const DispatchRequest& request, const Cell& cell, con
     options.rehearse = request.rehearse;
     options.takeover_code = request.takeover_code;
     options.owner_held = status.owner_held;
+    options.signing_key = request.signing_key;
     return options;
 }
 
@@ -171,7 +181,9 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
     }
     ModbusTcpBus bus(parse_tcp_address(*to));
     if (!request.chunks) check_drop_folder(*drop, cell, *to, context);
-    DispatchOptions options = options_of(request, cell, contact(bus, *to, cell, context));
+    const Status status = contact(bus, *to, cell, context);
+    if (const std::string apart = clock_difference(status.cell_time_ms, unix_ms()); !apart.empty()) context.warn(apart);
+    DispatchOptions options = options_of(request, cell, status);
     options.address = *to;
     if (!request.chunks) options.drop_folder = *drop;
     answer.refused = why_not_this_cell(request, options.want_simulated, *to);

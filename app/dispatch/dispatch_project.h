@@ -3,6 +3,8 @@
 // The checks in their order; with the first that is not passed nothing is sent (tests/app/cli/dispatch_jobs_test.cpp):
 //   0. The job that is named by its bytes is one of the project.
 //   1. No job has a negative verdict, or one of other bytes (proven_jobs.h).
+//      No signature of a job is wrong, and none is missing where the cell file requires it; the key that signs the
+//      tickets is trusted then, and never a revoked one (signing.h).
 //   2. No job leaves more surface out of reach than its limit, unless that is accepted.
 //   3. Every piece is held, unless that is accepted, beforehand or by the operator who is asked.
 //   4. An address is known, and a drop folder that is there, unless files are sent in chunks.
@@ -44,6 +46,8 @@ struct DispatchRequest {
     bool again = false;     // also a file that the cell has milled before
     bool rehearse = false;  // REHEARSE before PREPARE
     std::uint32_t takeover_code = 0;
+    std::optional<Ed25519PrivateKey> signing_key;  // signs the tickets; nothing: they are not signed
+    std::optional<std::filesystem::path> trusted;  // list of trusted keys; nothing: that of the user
 };
 
 struct DispatchAnswer {

@@ -3,6 +3,7 @@
 #include "app/dispatch/dry_run.h"
 
 #include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/signing.h"
 #include "app/dispatch/simulated_limits.h"
 #include "base/files/temporary_folder.h"
 #include "base/printable.h"
@@ -31,6 +32,10 @@ void warn_of(const ProjectJobs& ordered, const ProjectContext& context) {
     for (const std::string& sentence : unproven_jobs(ordered, true)) {
         context.warn(sentence + "; dispatch to a real cell refuses it");
     }
+    const TrustedKeys trusted = read_trusted_keys(trusted_keys_file(std::nullopt));
+    for (const std::string& sentence : wrongly_signed_jobs(ordered, trusted, unix_ms())) {
+        context.warn(sentence + "; dispatch refuses it");
+    }
     for (const std::string& sentence : unreachable_jobs(ordered.jobs)) {
         context.warn(Sentence::with_key("asks_accept_unreachable", {sentence},
                                         sentence + "; dispatch asks whether that may stay"));
@@ -45,6 +50,7 @@ CellSimOptions simulated_cell(const Cell& cell, double speed, const std::filesys
     options.drop_folder = drop;
     options.limits = simulated_limits(cell);
     options.limits.consent = Consent::automatic;
+    options.limits.require_signature = false;  // nobody is asked for a passphrase where nothing moves
     options.limits.speed = speed;
     options.limits.acting_ms = 20;
     return options;

@@ -74,4 +74,14 @@ std::vector<std::string> simulated_only_jobs(const ProjectJobs& jobs) {
     return by_reason(jobs.jobs, [&](const PieceJob& job) { return lack_of(job, jobs); });
 }
 
+std::vector<std::string> wrongly_signed_jobs(const ProjectJobs& jobs, const TrustedKeys& trusted,
+                                             std::uint64_t now_ms) {
+    return by_reason(jobs.jobs, [&](const PieceJob& job) -> std::optional<std::string> {
+        const std::string fault =
+            fault_of(job.signature, job.ticket.file_sha256, jobs.cell.id, jobs.cell.require_signature, trusted, now_ms);
+        if (fault.empty()) return std::nullopt;
+        return fault + "; look at the job, then sign it: qchopper keys sign " + shell_word(jobs.folder);
+    });
+}
+
 }  // namespace qchopper

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,9 @@ std::vector<std::string> unproven_jobs(const ProjectJobs& jobs, bool is_real);
 
 // The same for jobs that go to a simulated cell only, because they have no program or no verdict.
 std::vector<std::string> simulated_only_jobs(const ProjectJobs& jobs);
+
+// The same for jobs whose signature file is wrong, and for those without one where the cell file requires one. A wrong
+// signature is refused under any policy: somebody meant it to be checked.
+std::vector<std::string> wrongly_signed_jobs(const ProjectJobs& jobs, const TrustedKeys& trusted, std::uint64_t now_ms);
 
 }  // namespace qchopper

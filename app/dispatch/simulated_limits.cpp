@@ -28,6 +28,7 @@ Vec3 largest_stock(const Cell& cell) {
 CellLimits simulated_limits(const Cell& cell) {
     CellLimits limits;
     limits.cell_id = cell.id;
+    limits.require_signature = cell.require_signature;
     const Vec3 base{cell.table.centre_x, cell.table.centre_y, cell.table.height + margins_of(cell).spoil};
     limits.workspace = {cell.workspace.min - base, cell.workspace.max - base};
     limits.max_stock = largest_stock(cell);

@@ -1,4 +1,5 @@
-// Limits of a simulated cell from a cell file: id, reach, stock and all tools. Lengths in mm.
+// Limits of a simulated cell from a cell file: id, reach, stock, all tools, and whether it requires signatures. Lengths
+// in mm.
 //
 // A ticket that this program writes for a piece that fits the cell is within them
 // (tests/app/dispatch/simulated_limits_test.cpp).

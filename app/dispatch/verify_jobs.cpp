@@ -187,10 +187,12 @@ std::vector<Piece> pieces_of(const std::vector<PieceJob>& jobs, const std::vecto
     return with_job;
 }
 
-VerifiedJob written(const fs::path& file, JobVerdict verdict) {
+VerifiedJob written(const fs::path& file, JobVerdict verdict, const Cell& cell, const TrustedKeys& trusted) {
     verdict.is_positive = verdict.findings.empty();
     write_verdict(file, verdict);
-    return {file, std::move(verdict)};
+    std::string fault =
+        fault_of(read_signature(file), verdict.job_sha256, cell.id, cell.require_signature, trusted, unix_ms());
+    return {file, std::move(verdict), std::move(fault)};
 }
 
 }  // namespace
@@ -215,7 +217,7 @@ JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const Cell
 }
 
 VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_file,
-                       const std::string& program_version, const Context& context) {
+                       const std::string& program_version, const TrustedKeys& trusted, const Context& context) {
     const ReadJob read = parse_job(read_job(job), job.string());
     fs::path cell = cell_file.value_or(fs::absolute(job).parent_path().parent_path() / "cell.toml");
     std::error_code error;
@@ -223,14 +225,16 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
         throw InputError(InputFault::use, "no cell file is known for " + job.string(),
                          Sentence::with_key("give_cell_file", {}, "give the cell file"));
     }
-    JobVerdict verdict = judge_job(read, job.string(), read_cell_file(cell), program_version, context);
+    const CellFile described = read_cell_file(cell);
+    JobVerdict verdict = judge_job(read, job.string(), described, program_version, context);
     verdict.notes.emplace_back(
         "its setup was not compared with that of its project, because a single job file does not have the project");
-    return written(job, std::move(verdict));
+    return written(job, std::move(verdict), described.cell, trusted);
 }
 
 VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::string>& piece,
-                            const std::string& program_version, const ProjectContext& context) {
+                            const std::string& program_version, const TrustedKeys& trusted,
+                            const ProjectContext& context) {
     const ProjectJobs ordered = jobs_of(folder, piece, context);
     const CellFile cell = read_cell_file(folder / "cell.toml");
     OpenProject project(folder, context);
@@ -256,7 +260,7 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
         const auto faults = faults_against_project(read, file.string(), project, joints, cell.cell);
         verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
         shorten(verdict);
-        verified.push_back(written(file, std::move(verdict)));
+        verified.push_back(written(file, std::move(verdict), cell.cell, trusted));
     }
     return verified;
 }

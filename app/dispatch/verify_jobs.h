@@ -14,12 +14,16 @@
 #include "app/store/project_context.h"
 #include "cam/cell/cell.h"
 #include "cam/job/job.h"
+#include "devices/keys/trusted_keys.h"
 
 namespace qchopper {
 
 struct VerifiedJob {
     std::filesystem::path file;
     JobVerdict verdict;
+    // What speaks against its signature file, or that the cell file requires one. Not in the verdict, which is written
+    // before anybody signs the job.
+    std::string signature_fault = {};
 };
 
 using VerifyAnswer = std::vector<VerifiedJob>;
@@ -42,12 +46,13 @@ JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const Cell
 // One job file. Without a cell file, that of the project in whose folder "jobs" it lies. Throws what read_job and
 // parse_job throw, what read_cell throws, and InputError (use) without a cell file.
 VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std::filesystem::path>& cell_file,
-                       const std::string& program_version, const Context& context);
+                       const std::string& program_version, const TrustedKeys& trusted, const Context& context);
 
 // All jobs of a project, or those of one piece, in the order of its pieces. Parts of a program have to follow each
 // other, each carrying the stock that the replay of the one before left, and its SHA-256. Throws what jobs_of
 // (dispatch_jobs.h) throws.
 VerifyAnswer verify_project(const std::filesystem::path& folder, const std::optional<std::string>& piece,
-                            const std::string& program_version, const ProjectContext& context);
+                            const std::string& program_version, const TrustedKeys& trusted,
+                            const ProjectContext& context);
 
 }  // namespace qchopper

@@ -45,6 +45,7 @@ Json job_json(const VerifiedJob& job) {
               {"findings", list_of(v.findings, finding_json)},
               {"findings_left_out", v.findings_left_out},
               {"notes", v.notes},
+              {"signature_fault", job.signature_fault},
               {"verdict", verdict_file(job.file).string()}};
     add_time(json, v.time);
     return json;
@@ -66,7 +67,8 @@ std::vector<MachineTime> times_of(const VerifyAnswer& answer) {
 }  // namespace
 
 bool is_all_positive(const VerifyAnswer& answer) {
-    return std::all_of(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; });
+    return std::all_of(answer.begin(), answer.end(),
+                       [](const VerifiedJob& job) { return job.verdict.is_positive && job.signature_fault.empty(); });
 }
 
 std::vector<std::string> lines(const VerifyAnswer& answer) {
@@ -76,6 +78,7 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
                        "): " + (job.verdict.is_positive ? "verified" : "REFUSED"));
         if (!job.verdict.figures.empty()) text.push_back("  " + figures_word(job.verdict));
         add_findings(job.verdict, text);
+        if (!job.signature_fault.empty()) text.push_back("  Signature REFUSED: " + job.signature_fault + ".");
         for (const std::string& note : job.verdict.notes) text.push_back("  Note: " + note + ".");
     }
     if (const std::string line = time_line(times_of(answer)); !line.empty()) text.push_back(line);

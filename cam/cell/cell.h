@@ -172,8 +172,9 @@ struct CellMachine {
 
 struct Cell {
     std::string name;
-    std::uint16_t id = 0;  // CELL_ID on the wire, 1..65535
-    Box workspace;         // what the tool tip reaches
+    std::uint16_t id = 0;            // CELL_ID on the wire, 1..65535
+    bool require_signature = false;  // every job and every ticket must be signed by a trusted key
+    Box workspace;                   // what the tool tip reaches
     Table table;
     std::vector<Stock> stock;
     Margins margins;

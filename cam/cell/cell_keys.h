@@ -28,17 +28,18 @@ class TableKeys {
     }
 
  private:
-    std::array<std::string_view, 24> keys_;
+    std::array<std::string_view, 25> keys_;
     std::size_t count_;
 };
 
 namespace keys_2 {
 
-inline constexpr TableKeys root{
-    "", {"version",    "name",  "id",         "clearance",      "max_tilt_deg", "max_unreachable",
-         "margin",     "reach", "table",      "rotary_table",   "robot",        "spindle",
-         "extraction", "tool",  "stock",      "obstacle",       "start",        "program",
-         "link",       "dowel", "dowel_play", "load_tolerance", "holding",      "saw"}};
+inline constexpr TableKeys root{"",
+                                {"version",         "name",           "id",         "clearance", "max_tilt_deg",
+                                 "max_unreachable", "margin",         "reach",      "table",     "rotary_table",
+                                 "robot",           "spindle",        "extraction", "tool",      "stock",
+                                 "obstacle",        "start",          "program",    "link",      "dowel",
+                                 "dowel_play",      "load_tolerance", "holding",    "saw",       "require_signature"}};
 inline constexpr TableKeys reach{"reach", {"min", "max", "source", "sources"}};
 inline constexpr TableKeys table{"table", {"centre", "size", "height", "source", "sources"}};
 inline constexpr TableKeys rotary_table{

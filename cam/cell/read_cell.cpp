@@ -298,6 +298,7 @@ Cell read_file_2(const TomlReader& root, const std::filesystem::path& path) {
     }
     cell.dowels = read_dowels(root);
     root.number_if_given("dowel_play", 0, 5, cell.dowel_play);
+    if (root.has("require_signature")) cell.require_signature = root.boolean("require_signature");
     if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link), path);
     return cell;
 }

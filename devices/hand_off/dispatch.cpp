@@ -18,6 +18,7 @@
 #include "devices/hand_off/random.h"
 #include "devices/journal/journal.h"
 #include "devices/wire/device_error.h"
+#include "devices/wire/ticket_signature.h"
 
 namespace qchopper {
 namespace {
@@ -149,7 +150,7 @@ class Dispatcher {
             case Kind::write_ticket:
                 return write(ticket_block.base, encode(plan_.ticket));
             case Kind::write_signature:
-                return write(signature_block.base, Registers(signature_block.count, 0));
+                return write(signature_block.base, signature());
             case Kind::heartbeat:
                 return write(heartbeat_block.base, encode(action.heartbeat));
             case Kind::write_chunk:
@@ -169,6 +170,12 @@ class Dispatcher {
 
     HandOffInput write(std::uint16_t base, const Registers& block) {
         return input_from(bus_.write_holding(base, block));
+    }
+
+    // All zero: the ticket is not signed.
+    Registers signature() const {
+        const std::optional<Ed25519PrivateKey>& key = plan_.options.signing_key;
+        return key ? sign_ticket(*key, encode(plan_.ticket)) : Registers(signature_block.count, 0);
     }
 
     HandOffInput write_chunk(std::uint32_t offset, std::uint32_t epoch) {
@@ -280,6 +287,7 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& 
     order.requirements = options.rehearse ? 1 : 0;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
+    if (options.signing_key) order.key_id = key_id_of(options.signing_key->public_key());
     check_file(ticket, file);
     const HandOffPlan plan = plan_of(wire_ticket(ticket, order), options);
     JournalEvent created;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "devices/wire/ed25519.h"
 #include "cam/job/ticket.h"
 #include "devices/journal/journal_event.h"
 #include "devices/wire/codes.h"
@@ -83,7 +84,8 @@ struct DispatchOptions {
     std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
     std::string address;              // HOST:PORT for the commands that the operator is told to run; may be empty
     std::uint32_t owner_held = 0;     // OWNER_HELD of the first STATUS, if that was read before
-    std::optional<Uuid> job_id;       // empty: a new random one
+    std::optional<Ed25519PrivateKey> signing_key;  // signs the ticket; empty: it is not signed
+    std::optional<Uuid> job_id;                    // empty: a new random one
     HandOffPast past;
     HandOffClock clock;  // for tests that count time instead of waiting for it
     // Draws job id, owner and secret; empty: the operating system does. For tests that repeat a course of events.

@@ -320,7 +320,7 @@ HandOffAction acknowledged(StepContext& context) {
 HandOffAction refused(StepContext& context, AckResult result) {
     HandOff& h = context.h;
     h.waits_for_ack = false;
-    const std::string answer = std::string(describe(result)) + " (" + name(result) + ")";
+    const std::string answer = std::string(describe(result, context.status().ack_detail)) + " (" + name(result) + ")";
     if (h.step == ask_file && result == AckResult::unknown_job) return enter(context, make_ready);
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);

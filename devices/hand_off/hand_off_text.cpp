@@ -84,6 +84,9 @@ Sentence remedy(AckResult refusal) {
         {AckResult::token_expired, again},
         {AckResult::safety_open, "Close the door and release the emergency stop, then dispatch again."},
         {AckResult::local_control, "Set the panel of the cell to remote, then dispatch again."},
+        {AckResult::bad_signature, "Sign the ticket with a key that the cell trusts, then dispatch again."},
+        {AckResult::unknown_key,
+         "Have the key trusted on the box that verifies for the cell, or sign with another key."},
         {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
     };
     if (refusal == AckResult::rehearsal_required) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/wire/ed25519.h"
 #include "cam/job/ticket.h"
 #include "devices/wire/codes.h"
 #include "devices/wire/packml.h"
@@ -147,6 +148,12 @@ struct WireTicket {
     std::uint16_t made_for = 0;  // b0: made for a simulated cell
     std::uint32_t key_id = 0;
     bool operator==(const WireTicket&) const = default;
+};
+
+// SIGNATURE: of the ticket that was written before; ticket_signature.h makes and checks it.
+struct TicketSignature {
+    Ed25519Signature signature;  // zeros: the ticket is not signed
+    bool operator==(const TicketSignature&) const = default;
 };
 
 // HEARTBEAT: keeps the lease of a dispatcher.

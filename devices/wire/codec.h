@@ -34,7 +34,7 @@ struct Decoded {
     bool is_ok() const { return fault == BlockFault::none; }
 };
 
-// T: Status, ResultRecord, Identity, Command, WireTicket, Heartbeat, Chunk.
+// T: Status, ResultRecord, Identity, Command, WireTicket, TicketSignature, Heartbeat, Chunk.
 template <class T>
 Registers encode(const T& value);
 // Of a chunk: fault `length` if LEN is not 1..232 or does not fit the number of registers, and the checksum is not

@@ -100,6 +100,12 @@ const char* describe(AckResult result) {
     return row_of(result).meaning;
 }
 
+const char* describe(AckResult result, std::uint32_t detail) {
+    if (result == bad_signature && detail == signature_detail::unsigned_ticket) return "the ticket is not signed";
+    if (result == unknown_key && detail == signature_detail::revoked_key) return "the key of the signature is revoked";
+    return describe(result);
+}
+
 const char* name(JobState state) {
     constexpr const char* names[] = {"none",
                                      "stored (NotAllowedToStart)",

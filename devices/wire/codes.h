@@ -123,6 +123,12 @@ constexpr bool is_refusal(AckResult result) {
     return static_cast<std::uint16_t>(result) >= 0x100;
 }
 
+// ACK_DETAIL of a signature that is refused; 0: no more than the result says.
+namespace signature_detail {
+constexpr std::uint32_t unsigned_ticket = 1;  // of BAD_SIGNATURE
+constexpr std::uint32_t revoked_key = 2;      // of UNKNOWN_KEY
+}  // namespace signature_detail
+
 // One row of the table of results in docs/developer/formats/registers.md.
 struct ResultCode {
     AckResult result;
@@ -136,6 +142,8 @@ std::span<const char* const> flag_names();
 // The name in the map, "NO_CONSENT"; and for the operator "the operator at the cell did not consent".
 const char* name(AckResult result);
 const char* describe(AckResult result);
+// The same with what ACK_DETAIL says of a signature.
+const char* describe(AckResult result, std::uint32_t detail);
 const char* name(JobState state);
 const char* name(JobResult result);
 

@@ -46,7 +46,8 @@ constexpr bool fits(const Field& field) {
     if constexpr (std::is_same_v<Member, std::int32_t>) return field.type == FieldType::i32 && field.count == 2;
     if constexpr (std::is_same_v<Member, std::uint64_t>) return field.type == FieldType::u64 && field.count == 4;
     if constexpr (std::is_same_v<Member, std::string>) return field.type == FieldType::text;
-    if constexpr (std::is_same_v<Member, Uuid> || std::is_same_v<Member, Sha256>) {
+    if constexpr (std::is_same_v<Member, Uuid> || std::is_same_v<Member, Sha256> ||
+                  std::is_same_v<Member, Ed25519Signature>) {
         return field.type == FieldType::bytes && sizeof(Member) == 2U * field.count;
     }
     return false;
@@ -64,7 +65,7 @@ void write(const Member& member, const Field& field, RegisterWriter& to) {
         to.u64(member);
     } else if constexpr (std::is_same_v<Member, std::string>) {
         to.text(member, field.count);
-    } else if constexpr (std::is_same_v<Member, Sha256>) {
+    } else if constexpr (std::is_same_v<Member, Sha256> || std::is_same_v<Member, Ed25519Signature>) {
         to.bytes(member.bytes);
     } else {
         to.bytes(member);
@@ -83,7 +84,7 @@ void read(Member& member, const Field& field, RegisterReader& from) {
         member = from.u64();
     } else if constexpr (std::is_same_v<Member, std::string>) {
         member = from.text(field.count);
-    } else if constexpr (std::is_same_v<Member, Sha256>) {
+    } else if constexpr (std::is_same_v<Member, Sha256> || std::is_same_v<Member, Ed25519Signature>) {
         from.bytes(member.bytes);
     } else {
         from.bytes(member);

@@ -163,8 +163,10 @@ constexpr LayoutRow<WireTicket> ticket_rows[] = {
     checksum<WireTicket>({198, 2, u32, "CRC", "CRC-32 over 100..197"}),
 };
 
-constexpr Field signature_fields[] = {
-    {200, 32, bytes, "SIGNATURE", "Ed25519 over \"QCHOPPER-TICKET-1\" and the bytes of 100..197; all zero: unsigned"},
+constexpr LayoutRow<TicketSignature> signature_rows[] = {
+    bound<&TicketSignature::signature>(
+        {200, 32, bytes, "SIGNATURE",
+         "Ed25519 over \"QCHOPPER-TICKET-1\" and the bytes of 100..197; all zero: unsigned"}),
 };
 
 void write_length(const Chunk& from, const Field&, RegisterWriter& to) {
@@ -199,8 +201,9 @@ template <class... T>
 constexpr std::tuple<std::span<const LayoutRow<T>>...> tables_of(std::span<const LayoutRow<T>>... rows) {
     return {rows...};
 }
-constexpr std::tuple tables = tables_of<Status, ResultRecord, Identity, Command, WireTicket, Chunk, Heartbeat>(
-    status_rows, result_rows, identity_rows, command_rows, ticket_rows, chunk_rows, heartbeat_rows);
+constexpr std::tuple tables =
+    tables_of<Status, ResultRecord, Identity, Command, WireTicket, TicketSignature, Chunk, Heartbeat>(
+        status_rows, result_rows, identity_rows, command_rows, ticket_rows, signature_rows, chunk_rows, heartbeat_rows);
 
 template <const auto& rows>
 constexpr std::array fields = fields_of(rows);
@@ -215,7 +218,7 @@ constexpr Block identity_block{
     "IDENTITY", Side::input, 300, 24, false, fields<identity_rows>, "which memory the cell has"};
 constexpr Block command_block{"COMMAND", Side::holding, 0, 60, true, fields<command_rows>, "one command"};
 constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, fields<ticket_rows>, "the job in numbers"};
-constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signature_fields, "of the ticket"};
+constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, fields<signature_rows>, "of the ticket"};
 constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, fields<chunk_rows>, "a slice of the job file"};
 constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, fields<heartbeat_rows>, "keeps the lease"};
 
@@ -228,6 +231,7 @@ template std::span<const LayoutRow<ResultRecord>> rows_of();
 template std::span<const LayoutRow<Identity>> rows_of();
 template std::span<const LayoutRow<Command>> rows_of();
 template std::span<const LayoutRow<WireTicket>> rows_of();
+template std::span<const LayoutRow<TicketSignature>> rows_of();
 template std::span<const LayoutRow<Chunk>> rows_of();
 template std::span<const LayoutRow<Heartbeat>> rows_of();
 

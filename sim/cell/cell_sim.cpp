@@ -81,7 +81,8 @@ struct CellSim::Parts {
                     return store->free_kib();
                 },
                 [this] { return load_marks(store->marks()); },
-                [this](const SaveMarks& marks) { return write([&] { save_marks(store->marks(), marks); }); }};
+                [this](const SaveMarks& marks) { return write([&] { save_marks(store->marks(), marks); }); },
+                options.trusted_keys};
     }
 
     // False: it could not be written.

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "devices/wire/codec.h"
 #include "sim/cell/link/modbus_listener.h"
@@ -25,6 +26,8 @@ struct CellSimOptions : ListenAt {
     double peer_rate =
         0;              // requests per second of the clients at one address without the lease; 0: as the server has it
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
+    // The keys whose signatures it takes, as they are now; called from the cell's threads. Empty: it has no list.
+    std::function<std::vector<CellKey>()> trusted_keys;
     // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may
     // outlive the cell. Without it and on_question nobody consents.
     std::function<bool(const std::string& question)> ask;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "devices/wire/ed25519.h"
 #include "base/files/file.h"
 #include "devices/wire/codec.h"
 #include "sim/cell/faults.h"
@@ -29,6 +30,12 @@ struct CellTool {
     std::uint32_t feed_max_mm_per_min = 0xFFFFFFFF;
 };
 
+// A key whose signatures the cell takes, or took.
+struct CellKey {
+    Ed25519PublicKey key;
+    bool is_revoked = false;
+};
+
 // What this cell is and can do. The defaults of reach and stock are far above any bone.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
@@ -39,6 +46,7 @@ struct CellLimits {
     std::vector<CellTool> tools;               // in the rack; empty: any
     std::uint32_t takeover_code = 0;           // with it a CLAIM replaces the lease of another dispatcher; 0: none does
     std::uint32_t max_chunk_file = 64U << 20;  // bytes that may come in chunks
+    bool require_signature = false;            // no job without the signature of a trusted key
     std::int64_t acting_ms = 200;              // of an acting state except Execute; a rehearsal takes five times that
 };
 
@@ -124,7 +132,7 @@ struct Lease {
 struct CellJob {
     WireTicket ticket;
     Registers ticket_block;  // as received, to compare a second STORE with
-    bool is_signed = false;
+    Registers signature;     // as received with it; empty: it is not signed
     JobState state = JobState::none;
     JobResult result = JobResult::none;
     std::uint32_t token = 0;
@@ -212,6 +220,8 @@ struct CellHooks {
     // The marks of the store, in another memory. Both or none; without them the cell does not find an older copy.
     std::function<SaveMarks()> read_marks;
     std::function<bool(const SaveMarks&)> write_marks;  // false: it could not
+    // The keys as they are now, asked for at STORE, PREPARE and START. Empty: the cell has no list of keys.
+    std::function<std::vector<CellKey>()> trusted_keys;
 };
 
 }  // namespace qchopper

@@ -146,7 +146,7 @@ std::uint16_t flags_of(const CellState& cell) {
     set(cell.surroundings.block == BlockOnTable::fresh, flag::block_loaded);
     set(cell.job.is_active(), flag::job_active);
     set(cell.job.is_finished(), flag::result_waiting);
-    set(cell.warning || (!is_free && !cell.job.is_signed), flag::warning);
+    set(cell.warning || (!is_free && cell.job.signature.empty()), flag::warning);
     set(cell.alarm.code != 0, flag::fault);
     set(!cell.surroundings.is_safe(), flag::safety_open);
     set(cell.surroundings.local_control, flag::local_control);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/cell/machine_parts.h"
+#include "sim/cell/signature_check.h"
 #include "sim/cell/ticket_check.h"
 
 namespace qchopper {
@@ -222,6 +223,7 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (cell.job.state != JobState::none) return {busy_other_job, static_cast<std::uint32_t>(cell.job.state)};
     if (cell.mode != UnitMode::production) return {wrong_mode};
     if (const AckResult why = refused_here(cell, command.command); why != ok) return {why};
+    if (const auto fault = wrong_signature(cell.ticket_draft, cell.signature_draft, cell.limits, hooks)) return *fault;
     if (const auto fault = wrong_field(ticket.value, cell.ticket_draft, cell.limits)) return *fault;
     if (command.file_sha256 != ticket.value.file_sha256) return {hash_mismatch};
     const bool is_chunks = ticket.value.transfer == Transfer::chunks;
@@ -235,12 +237,15 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     cell.job = CellJob{};
     cell.job.ticket = ticket.value;
     cell.job.ticket_block = cell.ticket_draft;
-    cell.job.is_signed = !cell.signature_draft.empty();
+    cell.job.signature = cell.signature_draft;
     cell.job.state = JobState::stored;
     cell.job.transfer = is_chunks ? TransferState::open : TransferState::idle;
     cell.transfer_result = none;
     log(cell, hooks,
-        "job " + to_text(id) + " stored: " + ticket.value.file_name + (cell.job.is_signed ? "" : " (unsigned)"));
+        "job " + to_text(id) + " stored: " + ticket.value.file_name +
+            (cell.job.signature.empty() ? " (unsigned)"
+             : hooks.trusted_keys       ? ""
+                                        : " (its signature is not checked: this cell has no list of keys)"));
     return {};
 }
 
@@ -269,6 +274,11 @@ Answer clear_result(CellState& cell, const Command& command) {
     if (!cell.job.is_finished() || is_refused(cell, command.command)) return {wrong_state};
     cell.job = CellJob{};
     return {};
+}
+
+// A key may have been revoked since STORE.
+std::optional<Answer> wrong_signature_now(const CellState& cell, const CellHooks& hooks) {
+    return wrong_signature(cell.job.ticket_block, cell.job.signature, cell.limits, hooks);
 }
 
 // The conditions that VERIFY, REHEARSE and PREPARE have in common.
@@ -303,8 +313,9 @@ std::string consent_question(const CellState& cell) {
     return question;
 }
 
-Answer prepare(CellState& cell, const Command& command, CellTime now) {
+Answer prepare(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     const WireTicket& ticket = cell.job.ticket;
+    if (const auto fault = wrong_signature_now(cell, hooks)) return *fault;
     const bool needs_receipt = (ticket.requirements & 1U) != 0 || command.arg0 != 0;
     if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt)) return {rehearsal_required};
     if (const auto fault = does_not_fit(ticket, cell.limits)) return *fault;
@@ -327,6 +338,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     }
     if (command.file_sha256 != job.ticket.file_sha256) return {hash_mismatch};
     if (cell.memory.jobs.count(command.job_id) != 0) return {job_id_reused};
+    if (const auto fault = wrong_signature_now(cell, hooks)) return *fault;
     CellMemory next = cell.memory;
     JobRecord& record = next.jobs[command.job_id];
     record.state = JobState::running;
@@ -357,7 +369,7 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
     if (what == CellCommand::set_mode) return set_mode(cell, command);
     const Answer fitness = check_stored_job(cell, command);
     if (fitness.result != ok) return fitness;
-    if (what == CellCommand::prepare) return prepare(cell, command, now);
+    if (what == CellCommand::prepare) return prepare(cell, command, now, hooks);
     if (what == CellCommand::verify) {
         const bool is_partial = cell.job.chunks.size() < cell.job.ticket.file_size;
         if (cell.job.ticket.transfer == Transfer::chunks && is_partial) return {file_missing};

@@ -35,7 +35,7 @@ SUB_MODULES = {
         "joint",
     ],
     "cam": ["cell", "setup", "stock", "toolpath", "program", "post", "job", "export"],
-    "devices": ["wire", "journal", "hand_off", "link_check"],
+    "devices": ["wire", "keys", "journal", "hand_off", "link_check"],
     "sim": ["cell", "program", "replay"],
     "app": ["store", "pictures", "jobs", "display", "engine", "guide", "dispatch", "report", "console", "cli"],
 }

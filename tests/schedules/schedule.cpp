@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -54,6 +55,7 @@ struct Plan {
     int jobs_each = 1;
     bool same_file = false;  // both PCs are ordered to carve the same files
     bool chunks = false;
+    std::optional<Ed25519PrivateKey> signing_key;  // with it the cell requires signatures
     int link_per_thousand = 0;
     int kills = 0;  // of each PC
     int power_cuts = 0;
@@ -76,6 +78,12 @@ Plan draw_plan(World& world) {
     plan.cancels = world.happens(200) ? 1 : 0;
     plan.same_file = plan.stores_lost == 0 && world.happens(300);
     return plan;
+}
+
+// The same in all schedules, so that a seed is one course of events.
+Ed25519PrivateKey fixed_key() {
+    constexpr std::array<std::uint8_t, 32> secret{1, 2, 3};
+    return Ed25519PrivateKey(secret);
 }
 
 PieceJob make_piece(int number) {
@@ -283,6 +291,7 @@ class Pc {
         options.random = [this] { return static_cast<std::uint32_t>(world_.random() >> 32U) | 1U; };
         if (plan_.takes_over && number_ == 1) options.takeover_code = 4711;
         options.again = std::exchange(again_, false);
+        options.signing_key = plan_.signing_key;
         options.journal = [this](const JournalEvent&) { old_journal_.after_event(); };
         options.at_point = [this](const std::string& point) {
             if (kill_at_ == 0 || --kill_at_ > 0) return;
@@ -368,7 +377,11 @@ ScheduleEnd run_schedule(std::uint64_t seed, const std::function<void(const std:
     ScheduleEnd end;
     World world(seed, folder.path / "drop");
     world.on_line = on_line;
-    const Plan plan = draw_plan(world);
+    Plan plan = draw_plan(world);
+    if (seed % 2 == 1) {
+        plan.signing_key = fixed_key();
+        world.require_signature(plan.signing_key->public_key());
+    }
     world.proxy.set_odds(plan.link_per_thousand);
     plan_power(world, plan, end);
     std::vector<std::unique_ptr<Pc>> pcs;

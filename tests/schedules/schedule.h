@@ -1,5 +1,5 @@
 // One schedule of faults, drawn from its seed: link faults, kills of a dispatcher, power cuts, stores lost, journals
-// set back, two PCs.
+// set back, two PCs. With every odd seed the cell requires signed tickets, and the dispatchers sign them.
 //
 // After some minutes of virtual time the faults end, and the dispatchers go on until each has a last word for each of
 // its jobs. The judge is World.

@@ -89,6 +89,11 @@ CellTime World::cell_time() const {
     return {100000 + now_us_ / 1000, 1700000000000U + static_cast<std::uint64_t>(now_us_ / 1000)};
 }
 
+void World::require_signature(const Ed25519PublicKey& key) {
+    keys_ = {{key, false}};
+    cell_.limits.require_signature = true;
+}
+
 CellHooks World::hooks() {
     CellHooks hooks;
     hooks.save = [this](const CellMemory& memory) {
@@ -103,6 +108,7 @@ CellHooks World::hooks() {
             return true;
         };
     }
+    if (!keys_.empty()) hooks.trusted_keys = [this] { return keys_; };
     hooks.log = [this](const std::string& line) { say("cell: " + line); };
     return hooks;
 }

@@ -57,6 +57,9 @@ class World {
     int max_starts_of_a_job() const;
     bool count_is_right() const { return count_is_right_; }  // STARTS_TOTAL always was the number of started jobs
 
+    // From now on the cell takes no job that this key has not signed.
+    void require_signature(const Ed25519PublicKey& key);
+
     CellState& cell() { return cell_; }
     FaultProxy proxy;
     std::vector<std::string> log;
@@ -70,6 +73,7 @@ class World {
         bool is_cut = false;  // the cell does not know it any more
     };
     std::uint64_t next_random_();
+    std::vector<CellKey> keys_;  // empty: no signature is required
     CellTime cell_time() const;
     CellHooks hooks();
     void advance(std::int64_t until_us);

@@ -192,6 +192,25 @@ struct VerifyArguments {
     std::filesystem::path input;  // a job file, or a project folder
     std::optional<std::filesystem::path> cell;
     std::optional<std::string> piece;
+    std::optional<std::filesystem::path> trusted;  // list of trusted keys
+};
+
+// How a private key is named.
+struct SigningArguments {
+    std::optional<std::string> key;  // a name in the folder of keys, or a path
+    std::optional<int> passphrase_fd;
+};
+
+struct KeysArguments {
+    std::string action;  // make, show, trust, revoke, sign, check
+    std::string key;     // make: its name; trust: the file of a public key; revoke: name or id
+    std::optional<std::string> name;
+    std::optional<std::filesystem::path> list;
+    bool no_passphrase = false;
+    std::optional<int> passphrase_fd;
+    SigningArguments signing;
+    std::vector<std::filesystem::path> inputs;  // sign: a project or a job file; check: job files
+    std::optional<std::uint16_t> cell_id;
 };
 
 struct DryRunArguments : DryRunRequest {};
@@ -204,11 +223,14 @@ struct CellSimArguments {
     std::optional<std::filesystem::path> store;
     std::optional<std::filesystem::path> cell;
     double speed = 1;
+    std::optional<std::filesystem::path> trusted;  // list of trusted keys
     std::optional<std::filesystem::path> script;
     bool list_faults = false;
 };
 
-struct DispatchArguments : DispatchRequest {};
+struct DispatchArguments : DispatchRequest {
+    SigningArguments signing;
+};
 
 // Which cell: by its address, or by the file that names it.
 struct CellChoiceArguments {
@@ -289,7 +311,7 @@ struct Arguments {
     std::variant<SampleArguments, FuseArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
                  CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
-                 GatherArguments, VerifyArguments, DryRunArguments, CellSimArguments, DispatchArguments,
+                 GatherArguments, VerifyArguments, KeysArguments, DryRunArguments, CellSimArguments, DispatchArguments,
                  JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
                  CellCheckArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments, ConsoleMeshArguments,
                  ConsolePaintArguments>

@@ -76,6 +76,12 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"verify", R"(  qchopper verify vertebra.qch
   qchopper verify vertebra.qch --piece B
   qchopper verify B.qjob --cell cells/kr60-ha.toml)"},
+    {"keys", R"(  qchopper keys make anna
+  qchopper keys show
+  qchopper keys trust anna.pub --name "Anna, office 2" --keys cell-keys.json
+  qchopper keys revoke anna
+  qchopper keys sign vertebra.qch --key anna
+  qchopper keys check vertebra.qch/jobs/A.qjob)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},
     {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
@@ -83,7 +89,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper cell-sim --list-faults)"},
     {"dispatch", R"(  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
   qchopper dispatch vertebra.qch --piece B
-  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse)"},
+  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse
+  qchopper dispatch vertebra.qch --key anna)"},
     {"journal", R"(  qchopper journal show
   qchopper journal show cell-7 --json
   qchopper journal verify

@@ -98,6 +98,7 @@ struct Parser {
     SubmitArguments submit;
     GatherArguments gather;
     VerifyArguments verify;
+    KeysArguments keys;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -132,6 +133,7 @@ struct Parser {
         add_submit();
         add_gather();
         add_verify();
+        add_keys();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
@@ -396,7 +398,63 @@ struct Parser {
         takes_cell_name(c->add_option("--cell", verify.cell,
                                       "the cell file of a job file (cell.toml of the project that it lies in)"));
         c->add_option("--piece", verify.piece, "of a project only this piece");
+        add_list(c, verify.trusted);
         add_common(c, common, [this] { common.command = verify; });
+    }
+
+    static void add_list(CLI::App* c, std::optional<std::filesystem::path>& list) {
+        c->add_option("--keys", list, "the list of trusted keys (that of this user)");
+    }
+
+    static void add_passphrase(CLI::App* c, std::optional<int>& fd) {
+        c->add_option("--passphrase-fd", fd,
+                      "read the passphrase as one line from this file descriptor (it is asked for on the terminal)")
+            ->check(CLI::Range(0, 1'000'000));
+    }
+
+    static CLI::Option* add_signing(CLI::App* c, SigningArguments& signing, const char* about) {
+        CLI::Option* key = c->add_option("--key", signing.key, about);
+        add_passphrase(c, signing.passphrase_fd);
+        return key;
+    }
+
+    CLI::App* add_keys_command(CLI::App* keys_app, const std::string& word, const char* about) {
+        CLI::App* c = keys_app->add_subcommand(word, about);
+        add_common(c, common, [this, word] {
+            keys.action = word;
+            common.command = keys;
+        });
+        return c;
+    }
+
+    void add_keys() {
+        CLI::App* c =
+            app.add_subcommand("keys", "make, trust and revoke the keys by which jobs and tickets are signed");
+        c->require_subcommand(1);
+        CLI::App* make = add_keys_command(c, "make", "make a private key of this user, and trust it on this computer");
+        make->add_option("NAME", keys.key, "its name, or a path outside of projects")->required();
+        add_passphrase(make, keys.passphrase_fd);
+        make->add_flag("--no-passphrase", keys.no_passphrase, "for a computer that nobody else can use");
+        add_list(make, keys.list);
+        add_list(add_keys_command(c, "show", "show trusted and revoked keys, and the private keys of this user"),
+                 keys.list);
+        CLI::App* trust = add_keys_command(c, "trust", "trust a public key on this computer");
+        trust->add_option("FILE", keys.key, "the public key NAME.pub that keys make has written")->required();
+        trust->add_option("--name", keys.name, "whose key it is (the name of the file)");
+        add_list(trust, keys.list);
+        CLI::App* revoke = add_keys_command(c, "revoke", "refuse what a key has signed, from now on and for good");
+        revoke->add_option("KEY", keys.key, "its name or its id")->required();
+        add_list(revoke, keys.list);
+        CLI::App* sign = add_keys_command(c, "sign", "write the signature file beside each job");
+        sign->add_option("INPUT", keys.inputs, "a job file NAME.qjob, or the folder NAME.qch of a project")
+            ->required()
+            ->expected(1);
+        add_signing(sign, keys.signing, "the private key: its name, or its file")->required();
+        CLI::App* check = add_keys_command(c, "check", "check the signature files beside jobs, without a replay");
+        check->add_option("JOB", keys.inputs, "job files NAME.qjob")->required();
+        check->add_option("--cell-id", keys.cell_id, "the id of the cell they are for (the one that each job names)")
+            ->check(CLI::Range(1, 65535));
+        add_list(check, keys.list);
     }
 
     void add_dry_run() {
@@ -422,6 +480,8 @@ struct Parser {
         takes_cell_name(c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file"));
         c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        c->add_option("--keys", cell_sim.trusted,
+                      "the list of keys that it trusts, read again for each job (none: it checks no signature)");
         c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
         c->add_flag("--list-faults", cell_sim.list_faults, "list the faults that a script can order, and end");
         add_common(c, common, [this] { common.command = cell_sim; });
@@ -450,6 +510,8 @@ struct Parser {
         c->add_flag("--chunks", dispatch.chunks, "send job files over the link, without a drop folder");
         c->add_flag("--rehearse", dispatch.rehearse,
                     "let the cell rehearse each job, without motion, before it asks for consent");
+        add_signing(c, dispatch.signing, "the private key that signs the tickets: its name, or its file");
+        add_list(c, dispatch.trusted);
         c->add_option("--take-over", dispatch.takeover_code,
                       "end the lease of another dispatcher by the code shown at the cell's panel")
             ->check(number_between(1, 4294967295.0, "a code"));

@@ -6,6 +6,7 @@
 
 #include "app/dispatch/dispatch_jobs.h"
 #include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/signing.h"
 #include "base/error.h"
 
 namespace qchopper {
@@ -40,6 +41,12 @@ DispatchPlan plan_dispatch(const std::filesystem::path& project, const PlanOrder
         plan.refused.insert(plan.refused.end(), why.begin(), why.end());
     };
     add(unproven_jobs(ordered, order.is_for_real_cell));
+    const TrustedKeys trusted = read_trusted_keys(trusted_keys_file(std::nullopt));
+    add(wrongly_signed_jobs(ordered, trusted, unix_ms()));
+    if (ordered.cell.require_signature) {
+        // A passphrase is typed at a terminal, never into a page.
+        add({"the cell " + ordered.cell.name + " requires signed tickets: dispatch from a terminal, with a key"});
+    }
     if (!order.accept_unreachable) add(unreachable_jobs(ordered.jobs));
     if (order.is_for_real_cell) add(jobs_failing_workholding(ordered.jobs));
     return plan;

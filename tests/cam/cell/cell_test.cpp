@@ -177,6 +177,13 @@ TEST(Cell, AnUnknownKeyIsRefusedWithTheNearestKnownOne) {
     EXPECT_NE(refused("[link]", "[lnk]").to_do.find("link"), std::string::npos);
 }
 
+TEST(Cell, SignaturesAreRequiredOnlyWhereTheFileSaysSo) {
+    EXPECT_FALSE(parse_cell(good, "c.toml").require_signature);
+    EXPECT_TRUE(parse_cell("require_signature = true\n" + good, "c.toml").require_signature);
+    EXPECT_FALSE(parse_cell("require_signature = false\n" + good, "c.toml").require_signature);
+    EXPECT_THROW(parse_cell("require_signature = \"yes\"\n" + good, "c.toml"), InputError);
+}
+
 TEST(Cell, TwoBlocksOfOneNameOrNoneAreRefused) {
     const Refusal twice = refused("[[tool]]", "[[stock]]\nname = \"small\"\nsize = [1, 1, 1]\n[[tool]]");
     EXPECT_NE(twice.what.find("cell.toml:22: stock.name"), std::string::npos) << twice.what;

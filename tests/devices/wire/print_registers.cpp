@@ -60,6 +60,11 @@ std::string print_codes() {
     for (const ResultCode& one : result_codes()) {
         out += row({hex(static_cast<unsigned>(one.result)), one.name, one.meaning});
     }
+    out += "\nACK_DETAIL says more of a signature: ";
+    out += number(signature_detail::unsigned_ticket) +
+           " of BAD_SIGNATURE: " + describe(AckResult::bad_signature, signature_detail::unsigned_ticket) + "; ";
+    out += number(signature_detail::revoked_key) +
+           " of UNKNOWN_KEY: " + describe(AckResult::unknown_key, signature_detail::revoked_key) + ".\n";
     return out;
 }
 
