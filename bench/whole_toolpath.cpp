@@ -12,8 +12,8 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
-#include "cam/post/krl.h"
 #include "cam/post/krl_text.h"
+#include "cam/post/post.h"
 #include "cam/program/make_program.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/toolpath/make_toolpath.h"
@@ -140,7 +140,7 @@ void measure_one(const Choice& choice, const std::string& name, const std::strin
         const double before = process_cpu_s();
         path = make_toolpath(setup, *piece.mesh, machine, settings);
         const double made = process_cpu_s();
-        const std::vector<ProgramPart> parts = post_krl(make_program(path, setup, {}, machine), machine, {1});
+        const std::vector<ProgramPart> parts = post_program(make_program(path, setup, {}, machine), machine, {1});
         const double spent = process_cpu_s() - before;
         const std::string what = std::string("roughing, finishing") + (has_fine ? ", fine finishing" : "") +
                                  " and post, cells of " + number_text(cell) + " mm";

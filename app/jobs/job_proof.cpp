@@ -16,13 +16,12 @@
 #include "cam/setup/drill_orientation.h"
 #include "segment/io/read_mesh.h"
 #include "sim/program/chunk_summary.h"
-#include "sim/program/krl_line.h"
-#include "sim/program/krl_reader.h"
+#include "sim/program/program_line.h"
 #include "sim/replay/flush_check.h"
 #include "sim/replay/machine_walk.h"
 #include "sim/replay/reach/reachable.h"
+#include "sim/replay/read_program.h"
 #include "sim/replay/replay.h"
-#include "sim/replay/signal_walk.h"
 
 namespace qchopper {
 namespace {
@@ -46,7 +45,7 @@ std::optional<ParsedProgram> read(const ProofInput& input, JobProof& proof) {
     std::vector<ProgramFile> files;
     for (const std::string& name : input.program.files) files.push_back({name, input.texts.at(name)});
     try {
-        return read_krl(files, without_ending(input.program.entry), {called_programs(input.cell)});
+        return read_program(input.program.dialect, files, without_ending(input.program.entry), input.cell);
     } catch (const LineRefused& refused) {
         add(proof, "not_readable", refused.file, refused.line, refused.why);
         return std::nullopt;
@@ -269,9 +268,10 @@ void add_findings(const ParsedProgram& program, const ReplayReport& report, JobP
 JobProof prove(const ProofInput& input, const Context& context) {
     JobProof proof;
     proof.notes = notes_of(input.program, input.setup.tools, input.cell.machine->tools);
-    if (input.program.dialect != Dialect::krl) {
-        add(proof, "not_readable", "", 0,
-            std::string("programs in the dialect ") + to_word(input.program.dialect) + " cannot be read back yet");
+    if (input.program.dialect != input.cell.machine->program.dialect) {
+        add(proof, "not_readable", manifest, 0,
+            std::string("the program is in the dialect ") + to_word(input.program.dialect) +
+                ", expected: " + to_word(input.cell.machine->program.dialect) + " of the cell file");
         return proof;
     }
     const std::optional<ParsedProgram> program = read(input, proof);

@@ -14,7 +14,7 @@
 #include "cam/job/job_caps.h"
 #include "cam/job/manifest.h"
 #include "cam/job/program_document.h"
-#include "cam/post/krl.h"
+#include "cam/post/post.h"
 
 namespace qchopper {
 namespace {

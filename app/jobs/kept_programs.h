@@ -3,7 +3,7 @@
 //
 // A file is named by a SHA-256 over all that programs are made from, and ends in a SHA-256 of its content: programs of
 // another source and damaged files are ignored. What is taken is what would be made again, to the byte
-// (tests/app/jobs/kept_programs_test.cpp). The number of the piece changes names alone (cam/post/krl.h, renumbered):
+// (tests/app/jobs/kept_programs_test.cpp). The number of the piece changes names alone (cam/post/post.h, renumbered):
 // programs that are proven are taken for another number of as many digits.
 
 #pragma once

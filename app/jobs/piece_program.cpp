@@ -19,7 +19,7 @@
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/job_caps.h"
-#include "cam/post/krl.h"
+#include "cam/post/post.h"
 #include "cam/program/make_program.h"
 #include "cam/program/reachable_holes.h"
 #include "cam/program/sampled_path.h"
@@ -154,7 +154,7 @@ PostedProgram post(const Toolpath& path, const Drilling& drilling, const PlacedS
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
     const Setup setup = with_drill_orientations(piece_setup.setup(), drilling.orientations);
     const Program program = make_program(whole, setup, piece_setup.machine_reachability, cell, context);
-    return {post_krl(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
+    return {post_program(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
 }
 
 std::size_t bytes_of(const ProgramPart& part) {
@@ -225,6 +225,7 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
                         const CellMachine& machine) {
     const ProgramPart& part = posted.parts[number - 1];
     ProgramInput input;
+    input.program.dialect = machine.program.dialect;
     input.program.scallop_mm = machine.program.scallop;
     for (const UnusedTool& unused : made.toolpath.unused) {
         ToolLeftOut left_out{{}, unused.orientation, unused.because};
@@ -356,10 +357,7 @@ PiecePrograms programs_along(FollowedToolpath followed, const Piece& piece, cons
 }  // namespace
 
 std::string no_programs_for(const Cell& cell) {
-    if (!cell.machine) return "the cell file describes no machine";
-    const Dialect dialect = cell.machine->program.dialect;
-    if (dialect == Dialect::krl) return {};
-    return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";
+    return cell.machine ? "" : "the cell file describes no machine";
 }
 
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {

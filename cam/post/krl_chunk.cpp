@@ -2,15 +2,12 @@
 
 #include "cam/post/krl_chunk.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
-#include <utility>
 
-#include "base/box.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "cam/post/chunk_lines.h"
 #include "cam/post/krl_signals.h"
 
 namespace qchopper {
@@ -25,21 +22,12 @@ constexpr double speed_unit = 0.1;       // mm/s, of the last decimal in m/s
 
 // In m/s, rounded down so that no speed is above the one that was asked for.
 std::string metres_per_s(double speed_mm_s) {
-    const double stepped = speed_unit * std::floor(speed_mm_s / speed_unit + 1e-6);
+    const double stepped = rounded_down(speed_mm_s, speed_unit);
     if (!(stepped > 0)) {
         throw InputError(InputFault::use,
                          "a move at " + significant(speed_mm_s, 3) + " mm/s is too slow for a program");
     }
-    return krl::number("$VEL.CP", stepped / 1000, speed_decimals, max_speed);
-}
-
-std::string box_words(const Box& box) {
-    std::string text;
-    for (int i = 0; i < 3; ++i) {
-        text +=
-            (i > 0 ? ", " : "") + std::string(1, "XYZ"[i]) + " " + fixed(box.min[i], 2) + " to " + fixed(box.max[i], 2);
-    }
-    return text;
+    return written_number("$VEL.CP", stepped / 1000, speed_decimals, max_speed);
 }
 
 // Sets a speed if it is another one: a line $VEL.CP.
@@ -52,9 +40,9 @@ void set_speed(double speed_mm_s, double& current, KrlText& text) {
 
 // Sets the distance of rounding if it is another one: a line $APO.CDIS. A corner of less than the unit is exact.
 bool set_rounding(double rounding_mm, double& current, KrlText& text) {
-    const double stepped = rounding_unit * std::floor(rounding_mm / rounding_unit + 1e-6);
+    const double stepped = rounded_down(rounding_mm, rounding_unit);
     if (!(stepped > 0)) return false;
-    if (stepped != current) text.line("$APO.CDIS = " + krl::number("$APO.CDIS", stepped, 3, 1000.001));
+    if (stepped != current) text.line("$APO.CDIS = " + written_number("$APO.CDIS", stepped, 3, 1000.001));
     current = stepped;
     return true;
 }
@@ -81,9 +69,9 @@ void KrlChunks::add_tool(std::size_t tool, KrlText& text) const {
     constexpr double max_kg = 10'000;
     const ProgramTool& own = program_.tools[tool];
     const Vec3 inertia = own.load.inertia_kg_m2;
-    text.line("$LOAD = {M " + krl::number("M", own.load.mass_kg, 3, max_kg) + ",CM " +
-              krl::frame(own.load.centre_in_flange) + ",J {X " + krl::number("J", inertia.x, 4, max_kg) + ",Y " +
-              krl::number("J", inertia.y, 4, max_kg) + ",Z " + krl::number("J", inertia.z, 4, max_kg) + "}}");
+    text.line("$LOAD = {M " + written_number("M", own.load.mass_kg, 3, max_kg) + ",CM " +
+              krl::frame(own.load.centre_in_flange) + ",J {X " + written_number("J", inertia.x, 4, max_kg) + ",Y " +
+              written_number("J", inertia.y, 4, max_kg) + ",Z " + written_number("J", inertia.z, 4, max_kg) + "}}");
     text.line("$TOOL = " + krl::frame(own.tool_in_flange));
 }
 
@@ -110,70 +98,23 @@ void KrlChunks::add_settings(const ProgramOperation& operation, KrlText& text) c
     add_axis_speeds(text);
     add_tool(operation.tool, text);
     add_base(text);
-    text.line("$ACC.CP = " + krl::number("$ACC.CP", machine_.program.acceleration / 1000, 4, 100));
+    text.line("$ACC.CP = " + written_number("$ACC.CP", machine_.program.acceleration / 1000, 4, 100));
     for (const char* name : {"$VEL.ORI1", "$VEL.ORI2"}) {
         text.line(std::string(name) + " = " +
-                  krl::number(name, degrees_per_radian * machine_.program.turn_speed, 4, 10'000));
+                  written_number(name, degrees_per_radian * machine_.program.turn_speed, 4, 10'000));
     }
 }
 
-bool KrlChunks::starts_from_home(const RunRange& range) const {
-    const ProgramOperation& operation = program_.operations[range.operation];
-    return range.first == 0 || operation.runs[range.first].starts_from_home;
-}
-
-void KrlChunks::add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const {
-    const ProgramOperation& operation = program_.operations[range.operation];
-    const CuttingTool& tool = machine_.tools[operation.tool];
-    Box box;
-    std::size_t moves = 0;
-    for (std::size_t r = range.first; r < range.first + range.count; ++r) {
-        const ProgramRun& run = operation.runs[r];
-        if (r == range.first) box = {run.start, run.start};
-        moves += run.moves.size();
-        for (int i = 0; i < 3; ++i) {
-            const auto add = [&](double value) {
-                box.min[i] = std::min(box.min[i], value);
-                box.max[i] = std::max(box.max[i], value);
-            };
-            add(run.start[i]);
-            for (const ProgramMove& move : run.moves) add(move.tip[i]);
-        }
-    }
-    text.comment("chunk " + std::to_string(order + 1) + " of " + std::to_string(total));
-    text.comment("direction " + std::to_string(operation.orientation + 1));
-    text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
-    text.comment(std::string("operation ") + to_word(operation.kind));
-    text.comment("moves of runs: " + std::to_string(moves));
-    text.comment("box of the tip in mm: " + box_words(box));
-    text.comment(std::string("start from home: ") +
-                 (starts_from_home(range) ? "free" : "not free, see the chunks before"));
-}
-
-// A place that is stated already is left out; the corner there is rounded only if every move that ends there allows it,
-// and never where a run ends.
 KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run, bool is_first, Stated& stated) const {
     KrlText text;
     if (run.hole > 0) text.comment("hole " + std::to_string(run.hole));
-    std::string here = krl::position(run.start, point_decimals);
+    const auto position = [](Vec3 tip) { return krl::position(tip, point_decimals); };
     set_speed(run.link_speed, stated.speed, text);
-    text.line(is_first ? full_pose(operation, run.start) : "LIN {" + here + "}");
-    const auto position_of = [&](std::size_t i) {
-        return i < run.moves.size() ? krl::position(run.moves[i].tip, point_decimals) : std::string();
-    };
-    std::string next = position_of(0);
-    for (std::size_t i = 0; i < run.moves.size();) {
-        const ProgramMove& move = run.moves[i];
-        const std::string own = std::move(next);
-        double rounding = move.rounding;
-        for (next = position_of(++i); next == own; next = position_of(++i)) {
-            rounding = std::min(rounding, run.moves[i].rounding);
-        }
-        if (own == here) continue;
+    text.line(is_first ? full_pose(operation, run.start) : "LIN {" + position(run.start) + "}");
+    for (const WrittenMove& move : written_moves(run, position)) {
         set_speed(move.speed, stated.speed, text);
-        const bool is_rounded = i < run.moves.size() && set_rounding(rounding, stated.rounding, text);
-        text.line("LIN {" + own + (is_rounded ? "} C_DIS" : "}"));
-        here = own;
+        const bool is_rounded = set_rounding(move.rounding, stated.rounding, text);
+        text.line("LIN {" + move.position + (is_rounded ? "} C_DIS" : "}"));
     }
     return text;
 }
@@ -182,7 +123,7 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
     const ProgramOperation& operation = program_.operations[range.operation];
     KrlText text;
     begin_program(name, text);
-    add_description(range, order, total, text);
+    describe_chunk(program_, machine_, range, order, total, text);
     add_settings(operation, text);
     start_extraction(machine_, text);
     start_spindle(machine_, operation.rpm, text);

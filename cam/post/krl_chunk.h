@@ -5,17 +5,11 @@
 #include <cstddef>
 
 #include "cam/cell/cell.h"
+#include "cam/post/dialect_post.h"
 #include "cam/post/krl_text.h"
 #include "cam/program/program.h"
 
 namespace qchopper {
-
-// Runs of one operation.
-struct RunRange {
-    std::size_t operation = 0;
-    std::size_t first = 0;
-    std::size_t count = 0;
-};
 
 class KrlChunks {
  public:
@@ -43,8 +37,6 @@ class KrlChunks {
  private:
     void add_base(KrlText& text) const;
     void add_settings(const ProgramOperation& operation, KrlText& text) const;
-    bool starts_from_home(const RunRange& range) const;
-    void add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const;
     std::string full_pose(const ProgramOperation& operation, Vec3 tip) const;
 
     const Program& program_;

@@ -5,19 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "base/error.h"
-#include "base/text.h"
-
 namespace qchopper {
 namespace {
 
 constexpr double max_analogue = 1.000001;  // of $ANOUT
 constexpr double max_argument = 1e6;
-
-[[noreturn]] void refuse(const std::string& key, const std::string& what) {
-    throw InputError(InputFault::config, "the cell file names no signal " + key + ": " + what,
-                     "add " + key + " to the cell file");
-}
 
 void switch_signal(const std::optional<Signal>& signal, bool is_on, KrlText& text) {
     if (!signal) return;
@@ -27,21 +19,15 @@ void switch_signal(const std::optional<Signal>& signal, bool is_on, KrlText& tex
 
 }  // namespace
 
-void check_signals(const CellMachine& machine) {
-    const Spindle& spindle = machine.spindle;
-    if (!spindle.on) refuse("spindle.on", "no program can start the spindle");
-    if (!spindle.at_speed) refuse("spindle.at_speed", "no program can wait for the speed of the spindle");
-    if (!spindle.off && spindle.on->kind == SignalKind::call) refuse("spindle.off", "no program can stop the spindle");
-}
-
 void start_spindle(const CellMachine& machine, double rpm, KrlText& text) {
     const Spindle& spindle = machine.spindle;
     if (spindle.speed) {
         const double value = rpm * spindle.speed->scale;
         if (spindle.speed->kind == SignalKind::call) {
-            text.line(spindle.speed->target + "(" + krl::number("speed of the spindle", value, 1, max_argument) + ")");
+            text.line(spindle.speed->target + "(" + written_number("speed of the spindle", value, 1, max_argument) +
+                      ")");
         } else {
-            const std::string volts = krl::number("speed of the spindle", value, 5, max_analogue);
+            const std::string volts = written_number("speed of the spindle", value, 5, max_analogue);
             text.line("$ANOUT[" + spindle.speed->target + "] = " + volts);
         }
     }
@@ -66,8 +52,7 @@ void ask_for_tool(const CellMachine& machine, const CuttingTool& tool, KrlText& 
     if (machine.program.tool_change_call) {
         return text.line(*machine.program.tool_change_call + "(" + std::to_string(tool.number) + ")");
     }
-    text.comment("ASK tool " + std::to_string(tool.number) + " (" + tool.name + ") is in the spindle, " +
-                 fixed(gauge_length(tool), 2) + " mm from the nose to the tip: check its length");
+    text.comment("ASK " + tool_question(tool));
     text.line("HALT");
 }
 

@@ -4,12 +4,9 @@
 
 #include "cam/cell/cell.h"
 #include "cam/post/krl_text.h"
+#include "cam/post/post_signals.h"
 
 namespace qchopper {
-
-// Throws InputError (config) if the cell file names no signal for spindle.on or spindle.at_speed, or none that switches
-// the spindle off.
-void check_signals(const CellMachine& machine);
 
 // Preconditions of all: check_signals() holds.
 void start_spindle(const CellMachine& machine, double rpm, KrlText& text);

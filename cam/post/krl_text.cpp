@@ -14,12 +14,11 @@
 namespace qchopper {
 namespace {
 
-constexpr double farthest = 5000;  // mm
 constexpr double max_degrees = 3600;
 
 // An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
 std::string angle(const char* name, double value, int decimals) {
-    const std::string text = krl::number(name, degrees_per_radian * value, decimals, max_degrees);
+    const std::string text = written_number(name, degrees_per_radian * value, decimals, max_degrees);
     return text == "-" + fixed(180, decimals) ? text.substr(1) : text;
 }
 
@@ -33,38 +32,11 @@ KukaAngles rounded_gimbal(KukaAngles abc, int decimals) {
 
 }  // namespace
 
-void KrlText::line(std::string_view text) {
-    bytes_ += text;
-    bytes_ += "\r\n";
-    ++lines_;
-}
-
-void KrlText::comment(std::string_view text) {
-    std::string ascii = ";" + std::string(text);
-    std::replace_if(
-        ascii.begin(), ascii.end(), [](char c) { return c < ' ' || c > '~'; }, '_');
-    line(ascii);
-}
-
-void KrlText::append(const KrlText& other) {
-    bytes_ += other.bytes_;
-    lines_ += other.lines_;
-}
-
 namespace krl {
 
-std::string number(std::string_view what, double value, int decimals, double largest) {
-    if (!(std::abs(value) < largest)) {
-        throw InputError(InputFault::use, std::string(what) + " = " + significant(value, 6) +
-                                              " cannot be written into a program: not below " +
-                                              significant(largest, 6) + " in size");
-    }
-    return fixed(value, decimals);
-}
-
 std::string position(Vec3 point, int decimals) {
-    return "X " + number("X", point.x, decimals, farthest) + ",Y " + number("Y", point.y, decimals, farthest) + ",Z " +
-           number("Z", point.z, decimals, farthest);
+    return "X " + written_mm("X", point.x, decimals) + ",Y " + written_mm("Y", point.y, decimals) + ",Z " +
+           written_mm("Z", point.z, decimals);
 }
 
 std::string angles(const Pose& pose, int decimals) {
@@ -81,14 +53,14 @@ std::string joints(const Joints& joints) {
     std::string text;
     for (std::size_t i = 0; i < axes_of_arm; ++i) {
         const std::string name = "A" + std::to_string(i + 1);
-        text += (i > 0 ? "," : "") + name + " " + number(name, degrees_per_radian * joints[i], 3, max_degrees);
+        text += (i > 0 ? "," : "") + name + " " + written_number(name, degrees_per_radian * joints[i], 3, max_degrees);
     }
     return text;
 }
 
 std::string external(int axis, double angle) {
     const std::string name = "E" + std::to_string(axis);
-    return name + " " + number(name, degrees_per_radian * angle, 3, max_degrees);
+    return name + " " + written_number(name, degrees_per_radian * angle, 3, max_degrees);
 }
 
 }  // namespace krl

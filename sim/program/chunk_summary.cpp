@@ -12,9 +12,10 @@ ChunkSummary summarise(const ParsedProgram& program, const ProgramChunk& chunk) 
     bool follows_line = false;
     for (std::size_t i = chunk.first; i < chunk.end; ++i) {
         const ProgramStep& step = program.steps[i];
-        if (step.kind != StepKind::linear_move && step.kind != StepKind::joint_move) continue;
+        const bool is_rapid = step.kind == StepKind::joint_move || step.kind == StepKind::rapid_move;
+        if (step.kind != StepKind::linear_move && !is_rapid) continue;
         ++summary.moves;
-        if (step.kind == StepKind::joint_move) {
+        if (is_rapid) {
             follows_line = false;
             continue;
         }

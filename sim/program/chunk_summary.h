@@ -13,10 +13,10 @@ namespace qchopper {
 
 struct ChunkSummary {
     std::string file;
-    std::size_t moves = 0;  // PTP and LIN
-    double length = 0;      // of the LIN but those from the end of a PTP
-    Box box;                // of the ends of LIN; empty of a chunk without any: the origin
-    Vec3 first;             // end of the first LIN
+    std::size_t moves = 0;  // rapid and straight
+    double length = 0;      // of the straight moves but those from the end of a rapid
+    Box box;                // of the ends of straight moves; empty of a chunk without any: the origin
+    Vec3 first;             // end of the first straight move
     Vec3 last;              // end of the last one
     bool operator==(const ChunkSummary&) const = default;
 };

@@ -21,7 +21,7 @@ Vec3 position_of(const KrlAggregate& a) {
 
 }  // namespace
 
-KrlAggregate read_aggregate(KrlLine& line) {
+KrlAggregate read_aggregate(ProgramLine& line) {
     KrlAggregate read;
     line.need('{');
     do {
@@ -44,13 +44,13 @@ KrlAggregate read_aggregate(KrlLine& line) {
     return read;
 }
 
-ProgramFrame read_frame(KrlLine& line) {
+ProgramFrame read_frame(ProgramLine& line) {
     const KrlAggregate a = read_aggregate(line);
     if (a.given != krl_frame) line.refuse("X, Y, Z, A, B and C are needed, and nothing else");
     return {position_of(a), degree * Vec3{a[KrlComponent::a], a[KrlComponent::b], a[KrlComponent::c]}};
 }
 
-ProgramLoad read_load(KrlLine& line) {
+ProgramLoad read_load(ProgramLine& line) {
     ProgramLoad load;
     line.need('{');
     line.need_word("m");

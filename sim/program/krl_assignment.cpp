@@ -11,26 +11,26 @@ constexpr double largest_acceleration = 20;  // m/s2
 constexpr double largest_turn = 3600;        // degrees/s
 
 // The value of NAME = value.
-double value_of(KrlLine& line, double least, double largest) {
+double value_of(ProgramLine& line, double least, double largest) {
     line.need('=');
     return line.number(least, largest);
 }
 
-double above_zero(KrlLine& line, double largest) {
+double above_zero(ProgramLine& line, double largest) {
     const double value = value_of(line, 0, largest);
     if (value <= 0) line.refuse("the value must be above 0");
     return value;
 }
 
 // [i] = percent
-void read_axis(KrlLine& line, std::array<double, 6>& shares, std::array<bool, 6>& stated) {
+void read_axis(ProgramLine& line, std::array<double, 6>& shares, std::array<bool, 6>& stated) {
     const std::uint32_t axis = line.index(1, 6);
     shares[axis - 1] = above_zero(line, 100) / 100;
     stated[axis - 1] = true;
 }
 
 // EK(MACHINE_DEF[n].ROOT,MACHINE_DEF[n].MECH_TYPE,{...})
-void read_chained_base(KrlLine& line, ModalState& state) {
+void read_chained_base(ProgramLine& line, ModalState& state) {
     const auto machine = [&](std::string_view member) {
         line.need_word("machine_def");
         const std::uint32_t n = line.index(2, 7);
@@ -48,14 +48,14 @@ void read_chained_base(KrlLine& line, ModalState& state) {
     state.base_machine = root;
 }
 
-void read_base(KrlLine& line, ModalState& state) {
+void read_base(ProgramLine& line, ModalState& state) {
     line.need('=');
     if (line.takes_word("ek")) return read_chained_base(line, state);
     state.base = read_frame(line);
     state.base_machine = 0;
 }
 
-void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
+void read_speed(ProgramLine& line, ModalState& state, StatedHere& stated) {
     line.need('.');
     const std::string which = line.word();
     if (which == "cp") {
@@ -70,14 +70,14 @@ void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
     }
 }
 
-void read_acceleration(KrlLine& line, ModalState& state, StatedHere& stated) {
+void read_acceleration(ProgramLine& line, ModalState& state, StatedHere& stated) {
     line.need('.');
     line.need_word("cp");
     state.acceleration = per_metre * above_zero(line, largest_acceleration);
     stated.acceleration = true;
 }
 
-void read_rounding(KrlLine& line, ModalState& state, StatedHere& stated) {
+void read_rounding(ProgramLine& line, ModalState& state, StatedHere& stated) {
     line.need('.');
     line.need_word("cdis");
     state.rounding = value_of(line, 0, per_metre);
@@ -86,7 +86,7 @@ void read_rounding(KrlLine& line, ModalState& state, StatedHere& stated) {
 
 }  // namespace
 
-bool read_assignment(const std::string& name, KrlLine& line, ModalState& state, StatedHere& stated) {
+bool read_assignment(const std::string& name, ProgramLine& line, ModalState& state, StatedHere& stated) {
     if (name == "$advance") {
         state.look_ahead = static_cast<int>((line.need('='), line.integer(0, 5)));
     } else if (name == "$apo") {

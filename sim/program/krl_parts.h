@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "base/units.h"
-#include "sim/program/krl_line.h"
 #include "sim/program/parsed_program.h"
+#include "sim/program/program_line.h"
 
 namespace qchopper {
 
@@ -35,6 +35,9 @@ struct KrlFile {
 // &PARAM lines (of a .dat it may be missing); a DEF or DEFDAT with another name; no END or ENDDAT, or anything behind
 // it. The file must outlive the result.
 KrlFile read_krl_file(const ProgramFile& file);
+
+// Whether a line says nothing: it is empty or a comment.
+bool is_krl_comment(std::string_view line);
 
 // krl_aggregate.cpp: {X 1.00,Y 2.00,...}, read by the names of the components in any order.
 
@@ -57,13 +60,13 @@ constexpr std::uint32_t krl_external = 1U << 12U;   // E1 to E6
 
 // From "{" to "}". A component that is unknown, doubled or out of range is refused: 5 m, 180 degrees of A, B, C, 720
 // degrees of an axis.
-KrlAggregate read_aggregate(KrlLine& line);
+KrlAggregate read_aggregate(ProgramLine& line);
 
 // The frame of an aggregate with all of krl_frame and nothing else; others are refused.
-ProgramFrame read_frame(KrlLine& line);
+ProgramFrame read_frame(ProgramLine& line);
 
 // {M m,CM {X x,Y y,Z z,A a,B b,C c},J {X x,Y y,Z z}}
-ProgramLoad read_load(KrlLine& line);
+ProgramLoad read_load(ProgramLine& line);
 
 // krl_assignment.cpp
 
@@ -83,6 +86,6 @@ struct StatedHere {
 
 // `name` is the word that the line begins with, with its $; the line stands behind it. Whether it is a modal value,
 // which is then read and put into `state`; anything wrong in it is refused.
-bool read_assignment(const std::string& name, KrlLine& line, ModalState& state, StatedHere& stated);
+bool read_assignment(const std::string& name, ProgramLine& line, ModalState& state, StatedHere& stated);
 
 }  // namespace qchopper

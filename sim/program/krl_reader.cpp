@@ -4,18 +4,17 @@
 #include "sim/program/krl_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "base/error.h"
 #include "sim/program/krl_parts.h"
+#include "sim/program/program_execution.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t max_files = 20'000;
 constexpr std::uint32_t max_outputs = 8192;
-constexpr std::uint32_t max_holes = 10'000;
 constexpr int look_ahead_restored = 3;
 
 struct Source {
@@ -24,58 +23,54 @@ struct Source {
     bool is_executed = false;
 };
 
-class KrlExecution {
+// Of a comment that begins its line.
+std::string_view words_of(std::string_view comment) {
+    return comment.starts_with(';') ? comment.substr(1) : std::string_view();
+}
+
+class KrlExecution : private ProgramExecution {
  public:
-    KrlExecution(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options);
+    KrlExecution(std::span<const ProgramFile> files, std::string_view main, const std::vector<std::string>& calls);
     ParsedProgram run();
 
  private:
     void check_data(const KrlFile& file) const;
     void execute(Source& source, bool is_main);
-    void read_comment(std::string_view line);
     void execute_line(const Source& source, std::size_t at, bool is_main);
-    void take_external(const KrlLine& line, const KrlAggregate& target);
-    void read_ptp(KrlLine& line);
-    void read_lin(KrlLine& line);
-    bool read_signal(const std::string& name, KrlLine& line);
-    void read_wait(KrlLine& line);
-    void read_init(KrlLine& line, bool is_main);
-    void read_halt(const Source& source, std::size_t at, KrlLine& line);
-    void read_call(const std::string& name, KrlLine& line, bool is_main);
-    void check_before_ptp(const KrlLine& line) const;
+    void take_external(const ProgramLine& line, const KrlAggregate& target);
+    void read_ptp(ProgramLine& line);
+    void read_lin(ProgramLine& line);
+    bool read_signal(const std::string& name, ProgramLine& line);
+    void read_wait(ProgramLine& line);
+    void read_init(ProgramLine& line, bool is_main);
+    void read_halt(const Source& source, std::size_t at, ProgramLine& line);
+    void read_call(const std::string& name, ProgramLine& line, bool is_main);
+    void check_before_ptp(const ProgramLine& line) const;
     void refuse_rounded() const;
-    void check_before_lin(const KrlLine& line, const KrlAggregate& target) const;
+    void check_before_lin(const ProgramLine& line, const KrlAggregate& target) const;
     void check_end() const;
-    void begin_chunk(bool is_main);
-    void end_chunk();
-    ProgramStep& add(StepKind kind);
-    std::uint32_t text(const std::string& words);
+    void begin(bool is_main);
 
-    ParsedProgram program_;
     std::map<std::string, Source> sources_;  // by stem
     std::string main_;
     std::vector<std::string> calls_;
-    ModalState state_;
     StatedHere stated_;
-    SourcePlace place_;
     std::array<double, 6> pose_{};
     std::optional<double> e1_;
-    std::uint32_t hole_ = 0;              // that the lines drill
     std::optional<SourcePlace> rounded_;  // the LIN with C_DIS behind which no move stands yet
     bool is_initialised_ = false;
     bool is_main_ = false;    // what is executed is the main program
     bool has_moved_ = false;  // in the chunk that is executed
-    std::uint32_t end_line_ = 0;
     std::optional<SourcePlace> chained_, without_e1_, with_e1_;
     std::uint32_t machine_ = 0;        // of MACHINE_DEF to which bases are chained
     std::uint32_t external_axis_ = 0;  // n of En
-    std::map<std::string, std::uint32_t> text_numbers_;
 };
 
-KrlExecution::KrlExecution(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options)
+KrlExecution::KrlExecution(std::span<const ProgramFile> files, std::string_view main,
+                           const std::vector<std::string>& calls)
     : main_(lower_case(main)) {
     if (files.size() > max_files) refuse_line(main_, 1, "there are more than 20,000 files");
-    for (const std::string& name : options.calls) calls_.push_back(lower_case(name));
+    for (const std::string& name : calls) calls_.push_back(lower_case(name));
     std::vector<std::string> data;
     for (const ProgramFile& file : files) {
         const KrlFile read = read_krl_file(file);
@@ -104,7 +99,6 @@ void KrlExecution::check_data(const KrlFile& file) const {
 }
 
 ParsedProgram KrlExecution::run() {
-    program_.states.push_back(state_);
     execute(sources_.at(main_), true);
     for (const auto& [stem, source] : sources_) {
         if (!source.is_executed) refuse_line(*source.file.name, 1, "the program is never called");
@@ -113,42 +107,22 @@ ParsedProgram KrlExecution::run() {
     return std::move(program_);
 }
 
-// Other comments say nothing that is needed, and one with another number than 1 to 9999 is another comment.
-void KrlExecution::read_comment(std::string_view line) {
-    constexpr std::string_view before = ";hole ";
-    if (lower_case(line) == ";start from home: free") program_.chunks.back().free_from_home = place_.line;
-    for (const char* operation : {"roughing", "finishing", "fine finishing", "drilling"}) {
-        if (lower_case(line) == std::string(";operation ") + operation) program_.chunks.back().operation = operation;
-    }
-    if (lower_case(line.substr(0, before.size())) != before) return;
-    const std::string_view digits = line.substr(before.size());
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-    if (is_number && number < max_holes) hole_ = number;
-}
-
-void KrlExecution::begin_chunk(bool is_main) {
+void KrlExecution::begin(bool is_main) {
     stated_ = {};
     is_main_ = is_main;
-    hole_ = 0;
     has_moved_ = false;
-    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main, end_line_});
-}
-
-void KrlExecution::end_chunk() {
-    program_.chunks.back().end = program_.steps.size();
+    begin_chunk(is_main);
 }
 
 void KrlExecution::execute(Source& source, bool is_main) {
     source.is_executed = true;
     place_ = {source.number, 0};
     end_line_ = static_cast<std::uint32_t>(source.file.end + 1);
-    begin_chunk(is_main);
+    begin(is_main);
     for (std::size_t i = source.file.first; i < source.file.end; ++i) {
         place_ = {source.number, static_cast<std::uint32_t>(i + 1)};
         if (is_krl_comment(source.file.lines[i])) {
-            read_comment(source.file.lines[i]);
+            take_comment(words_of(source.file.lines[i]));
         } else {
             execute_line(source, i, is_main);
         }
@@ -160,7 +134,7 @@ void KrlExecution::execute(Source& source, bool is_main) {
 }
 
 void KrlExecution::execute_line(const Source& source, std::size_t at, bool is_main) {
-    KrlLine line(source.file.lines[at], *source.file.name, at + 1);
+    ProgramLine line(source.file.lines[at], *source.file.name, at + 1);
     const std::string name = line.word();
     if (name == "ptp") return read_ptp(line);
     if (name == "lin") return read_lin(line);
@@ -178,32 +152,15 @@ void KrlExecution::execute_line(const Source& source, std::size_t at, bool is_ma
     read_call(name, line, is_main);
 }
 
-ProgramStep& KrlExecution::add(StepKind kind) {
-    if (!(program_.states.back() == state_)) program_.states.push_back(state_);
-    ProgramStep step;
-    step.kind = kind;
-    step.place = place_;
-    step.state = static_cast<std::uint32_t>(program_.states.size() - 1);
-    step.hole = hole_;
-    program_.steps.push_back(step);
-    return program_.steps.back();
-}
-
-std::uint32_t KrlExecution::text(const std::string& words) {
-    const auto [found, is_new] = text_numbers_.insert({words, static_cast<std::uint32_t>(program_.texts.size())});
-    if (is_new) program_.texts.push_back(words);
-    return found->second;
-}
-
 // The number is held against MACHINE_DEF at the end, when both are known.
-void KrlExecution::take_external(const KrlLine& line, const KrlAggregate& target) {
+void KrlExecution::take_external(const ProgramLine& line, const KrlAggregate& target) {
     if (!target.has(KrlComponent::external)) return;
     if (external_axis_ != 0 && external_axis_ != target.external_axis) line.refuse("two external axes are named");
     external_axis_ = target.external_axis;
     e1_ = degree * target[KrlComponent::external];
 }
 
-void KrlExecution::check_before_ptp(const KrlLine& line) const {
+void KrlExecution::check_before_ptp(const ProgramLine& line) const {
     if (!is_initialised_) line.refuse("BAS(#INITMOV,0) must stand before the first move");
     for (std::size_t axis = 0; axis < 6; ++axis) {
         const bool is_known = state_.axis_speed[axis] > 0 && state_.axis_acceleration[axis] > 0;
@@ -221,7 +178,7 @@ void KrlExecution::refuse_rounded() const {
     refuse_line(program_.files[rounded_->file], rounded_->line, "C_DIS stands where the next move is no LIN");
 }
 
-void KrlExecution::read_ptp(KrlLine& line) {
+void KrlExecution::read_ptp(ProgramLine& line) {
     const KrlAggregate target = read_aggregate(line);
     line.need_end();
     if ((target.given & ~krl_external) != krl_axes) line.refuse("PTP needs A1 to A6, and E1 on a rotary table");
@@ -235,7 +192,7 @@ void KrlExecution::read_ptp(KrlLine& line) {
     has_moved_ = true;
 }
 
-void KrlExecution::check_before_lin(const KrlLine& line, const KrlAggregate& target) const {
+void KrlExecution::check_before_lin(const ProgramLine& line, const KrlAggregate& target) const {
     if (!has_moved_) line.refuse("the first move must be a PTP");
     if (!stated_.tool || !stated_.base) line.refuse("$TOOL or $BASE was not stated in this file");
     if (!stated_.feed || !stated_.acceleration) line.refuse("$VEL.CP or $ACC.CP was not stated in this file");
@@ -252,7 +209,7 @@ void KrlExecution::check_before_lin(const KrlLine& line, const KrlAggregate& tar
     }
 }
 
-void KrlExecution::read_lin(KrlLine& line) {
+void KrlExecution::read_lin(ProgramLine& line) {
     const KrlAggregate target = read_aggregate(line);
     const bool is_rounded = line.takes_word("c_dis");
     line.need_end();
@@ -270,7 +227,7 @@ void KrlExecution::read_lin(KrlLine& line) {
     stated_.pose = true;
 }
 
-bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
+bool KrlExecution::read_signal(const std::string& name, ProgramLine& line) {
     const bool is_analog = name == "$anout";
     if (!is_analog && name != "$out") return false;
     const std::uint32_t number = line.index(1, is_analog ? 32 : max_outputs);
@@ -290,7 +247,7 @@ bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
     return true;
 }
 
-void KrlExecution::read_wait(KrlLine& line) {
+void KrlExecution::read_wait(ProgramLine& line) {
     line.need_word("for");
     line.need_word("$in");
     const std::uint32_t number = line.index(1, max_outputs);
@@ -298,7 +255,7 @@ void KrlExecution::read_wait(KrlLine& line) {
     add(StepKind::wait_input).number = number;
 }
 
-void KrlExecution::read_init(KrlLine& line, bool is_main) {
+void KrlExecution::read_init(ProgramLine& line, bool is_main) {
     line.need('(');
     line.need('#');
     line.need_word("initmov");
@@ -311,7 +268,7 @@ void KrlExecution::read_init(KrlLine& line, bool is_main) {
     is_initialised_ = true;
 }
 
-void KrlExecution::read_halt(const Source& source, std::size_t at, KrlLine& line) {
+void KrlExecution::read_halt(const Source& source, std::size_t at, ProgramLine& line) {
     line.need_end();
     const std::string_view before = at > source.file.first ? source.file.lines[at - 1] : std::string_view();
     if (lower_case(before.substr(0, 5)) != ";ask " || before.size() < 6) {
@@ -321,7 +278,7 @@ void KrlExecution::read_halt(const Source& source, std::size_t at, KrlLine& line
     add(StepKind::halt).text = asked;
 }
 
-void KrlExecution::read_call(const std::string& name, KrlLine& line, bool is_main) {
+void KrlExecution::read_call(const std::string& name, ProgramLine& line, bool is_main) {
     if (name.empty() || name.front() == '$')
         line.refuse("this is no line of a program (docs/developer/formats/programs.md)");
     if (!line.takes('(')) line.refuse("\"" + name + "\" is not known");
@@ -350,7 +307,7 @@ void KrlExecution::read_call(const std::string& name, KrlLine& line, bool is_mai
     execute(found->second, false);
     place_ = back;
     end_line_ = end_line;
-    begin_chunk(true);
+    begin(true);
 }
 
 void KrlExecution::check_end() const {
@@ -371,8 +328,9 @@ void KrlExecution::check_end() const {
 
 }  // namespace
 
-ParsedProgram read_krl(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options) {
-    return KrlExecution(files, main, options).run();
+ParsedProgram read_krl(std::span<const ProgramFile> files, std::string_view main,
+                       const std::vector<std::string>& calls) {
+    return KrlExecution(files, main, calls).run();
 }
 
 }  // namespace qchopper

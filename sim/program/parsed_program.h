@@ -55,26 +55,35 @@ struct ModalState {
     std::array<double, 2> turn_speed{};  // of the orientation, radians/s
     std::array<double, 6> axis_speed{};  // share of the largest, 0..1; 0: not stated
     std::array<double, 6> axis_acceleration{};
-    double rounding = 0;  // $APO.CDIS
+    double rounding = 0;  // distance from the corner, as $APO.CDIS; of a gantry the deviation, P of G64
     int look_ahead = -1;  // $ADVANCE; -1: not stated
+    // Of a program for a gantry: the tool that was changed in last, and the tool whose length is taken from the
+    // controller's table; 0: none.
+    std::uint32_t tool_number = 0;
+    std::uint32_t length_register = 0;
     bool operator==(const ModalState&) const = default;
 };
 
 enum class StepKind : std::uint8_t {
     joint_move,   // values: axes 1..6; e1 if the cell has a rotary table
     linear_move,  // values: X, Y, Z in mm, A, B, C
-    output,       // number; value 1 or 0
+    rapid_move,   // of a gantry: values and `given`
+    output,       // number or text; value 1 or 0
     analog_output,
     wait_input,
-    halt,  // text: what the operator is asked
-    call   // text: name, in lower case, of a program of the cell; value if it has an argument
+    spindle,      // of a gantry, by words of its language: value in revolutions/min; 0: off
+    dwell,        // value in seconds
+    tool_change,  // number of the tool
+    halt,         // text: what the operator is asked
+    call          // text: name, in lower case, of a program of the cell; value if it has an argument
 };
 
 struct ProgramStep {
     StepKind kind = StepKind::halt;
     bool is_rounded = false;  // linear_move: the corner at its end may be rounded
     bool has_argument = false;
-    std::uint32_t number = 0;  // of the input or output
+    std::uint8_t given = 0b111;  // rapid_move: bits of X, Y and Z, of which the others stay
+    std::uint32_t number = 0;    // of the input or output; 0: it has a name, which is text
     SourcePlace place;
     std::uint32_t state = 0;  // index in ParsedProgram::states
     std::uint32_t text = 0;   // index in ParsedProgram::texts
@@ -98,8 +107,8 @@ struct ProgramChunk {
     std::string operation = "unknown";
 };
 
-// In what a reader returns every index is valid, every number is finite, and every linear_move has a tool, a base and a
-// feed.
+// In what a reader returns every index is valid, every number is finite, and every linear_move has a feed and, of a
+// robot, a tool and a base; of a gantry the base is the work offset, and the tool has a number.
 struct ParsedProgram {
     std::vector<std::string> files;
     std::vector<std::string> texts;
@@ -107,5 +116,10 @@ struct ParsedProgram {
     std::vector<ProgramStep> steps;    // in the order of execution
     std::vector<ProgramChunk> chunks;  // in the order of execution; they cover the steps
 };
+
+// The number or the name, in lower case, of the input or output of a step.
+inline std::string signal_of(const ParsedProgram& program, const ProgramStep& step) {
+    return step.number > 0 ? std::to_string(step.number) : program.texts[step.text];
+}
 
 }  // namespace qchopper

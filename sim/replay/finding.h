@@ -29,7 +29,7 @@ enum class FindingKind : std::uint8_t {
     arm_configuration,  // the arm would have to change its configuration, or an axis to jump
     singularity,
     joint_speed,
-    outside_reach,   // foam is cut outside of the cell's reach box; of gantries only
+    outside_reach,   // the tip goes beyond the travel; of gantries only
     collision,       // of arm, spindle, holder or tool with what stands still, or with the arm
     holder_contact,  // holder or spindle in foam
     rapid_in_foam,

@@ -11,12 +11,12 @@
 
 #include "base/text.h"
 #include "cam/cell/reach_map.h"
-#include "sim/program/krl_line.h"
 #include "sim/replay/arm_pose.h"
 #include "sim/replay/path_time.h"
-#include "sim/replay/signal_walk.h"
 #include "sim/replay/state_check.h"
 #include "sim/replay/turn.h"
+#include "sim/replay/walk/gantry_walk.h"
+#include "sim/replay/walk/program_walk.h"
 
 namespace qchopper {
 namespace {
@@ -40,13 +40,6 @@ double seconds_of(const JointRanges& ranges, const ModalState& state, const Join
     return longest;
 }
 
-// What a comment of a program can hold of a text.
-std::string as_comment(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '_');
-    return text;
-}
-
 // How the axes take part in a line of the tip.
 struct AxisMotion {
     JointRates first{};
@@ -65,17 +58,13 @@ void add_step(const Joints& before, const Joints& after, double way, bool is_fir
     motion.acceleration = std::min(motion.acceleration, tip_acceleration(motion.last, limits));
 }
 
-class Walk {
+class Walk : public ProgramWalk {
  public:
     Walk(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log)
-        : program_(program),
-          scene_(scene),
-          machine_(*scene.cell->machine),
+        : ProgramWalk(program, scene, log),
           robot_(*machine_.robot),
-          log_(log),
           arm_(*scene.cell, log),
           states_(scene, setup_in_table_, log),
-          signals_(machine_, log),
           limits_(motion_limits(machine_)),
           joints_(machine_.start.joints),
           table_angle_(scene.start_table_angle) {
@@ -84,7 +73,6 @@ class Walk {
             setup_in_table_ = inverse(table_at(first.table_angle)) * first.setup_in_cell;
         }
     }
-    ToolPath run(const Context& context);
 
  private:
     Pose table_at(double angle) const { return machine_.rotary_table->table_in_cell * about_z(angle); }
@@ -93,174 +81,31 @@ class Walk {
                                      : scene_.orientations[direction_].setup_in_cell;
     }
     PlacedBox block_in_cell() const { return placed(setup_in_cell(), scene_.block); }
-    void enter(const ProgramChunk& chunk);
-    void take_tool(std::uint16_t number, SourcePlace place);
-    void check_asked(const CuttingTool& tool, SourcePlace place);
-    void take(const ProgramStep& step);
-    void take_halt(const ProgramStep& step);
-    void take_call(const ProgramStep& step);
-    void take_joint_move(const ProgramStep& step);
+    void take_rapid(const ProgramStep& step) override;
     JointSweep sweep_to(const ProgramStep& step, SourcePlace place);
     void check_start_from_home(const ProgramStep& step);
     MoveContext context_of(const ProgramStep& step) const;
-    bool is_home(bool with_table) const;
-    void check_stop(SourcePlace place);
-    void check_end(SourcePlace place);
-    void take_line(const ProgramStep& step);
+    bool is_home(bool with_table) const override;
+    void take_line(const ProgramStep& step) override;
     AxisMotion follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
     void check_speed(const Joints& before, double way, double feed, SourcePlace place);
     void check_table(const ProgramStep& step);
     bool is_aligned(Vec3 tool_axis, SourcePlace place);
     void add_line(Vec3 from, const TipPose& to, const ProgramStep& step, const ModalState& state,
                   const AxisMotion& motion);
-    void use_tool(const std::string& operation);
     Pose base_in_robot(const ModalState& state) const;
     TipPose tip_pose() const;
-    const CuttingTool& tool() const { return machine_.tools[tool_]; }
 
-    const ParsedProgram& program_;
-    const ReplayScene& scene_;
-    const CellMachine& machine_;
     const Robot& robot_;
-    FindingLog& log_;
     ArmPoses arm_;
     StateCheck states_;
-    SignalWalk signals_;
     MotionLimits limits_;
     Joints joints_;
     double table_angle_;
     Pose setup_in_table_;
-    std::uint32_t chunk_ = 0;
-    std::uint32_t direction_ = 0;
-    std::uint32_t tool_ = 0;
-    std::uint32_t use_ = 0;                    // index in ToolPath::uses
-    bool is_changed_ = false;                  // the tool, and no chunk is entered since
-    std::optional<std::uint16_t> asked_tool_;  // by a call with its number
-    std::string asked_;                        // by the last HALT, in lower case
-    SourcePlace asked_place_;                  // of that HALT
-    bool has_tool_ = false;
-    bool is_in_chunk_ = false;
-    bool has_moved_ = false;
-    SourcePlace free_from_home_;  // of the comment, until the first move of its chunk; line 0: there is none
-    bool follows_line_ = false;
     bool is_lost_ = false;       // no joints held the pose: lines are not followed until the next PTP
     double since_bodies_ = 1e9;  // mm of way
-    ToolPath path_;
 };
-
-ToolPath Walk::run(const Context& context) {
-    std::size_t next = 0;
-    std::size_t done = 0;
-    for (const ProgramChunk& chunk : program_.chunks) {
-        is_in_chunk_ = !chunk.is_main;
-        if (is_in_chunk_) chunk_ = static_cast<std::uint32_t>(next++);
-        if (is_in_chunk_) enter(chunk);
-        for (std::size_t i = chunk.first; i < chunk.end; ++i, ++done) {
-            if (done % 1024 == 0) {
-                context.check_cancelled();
-                context.progress("steps of the program followed", done, program_.steps.size());
-            }
-            take(program_.steps[i]);
-        }
-    }
-    check_end({program_.chunks.back().file, program_.chunks.back().end_line});
-    if (path_.uses.empty()) use_tool(ProgramChunk().operation);
-    if (next != scene_.chunks.size()) {
-        log_.add(
-            FindingKind::chunk_order, {},
-            "the program calls " + counted(next, "chunk") + ", the job has " + std::to_string(scene_.chunks.size()));
-    }
-    return std::move(path_);
-}
-
-void Walk::enter(const ProgramChunk& chunk) {
-    signals_.enter_chunk();
-    free_from_home_ = {chunk.file, chunk.free_from_home};
-    const SourcePlace place{chunk.file, 1};
-    const std::string stem = lower_case(program_.files[chunk.file].substr(0, program_.files[chunk.file].find('.')));
-    const bool is_known = chunk_ < scene_.chunks.size() && lower_case(scene_.chunks[chunk_].name) == stem;
-    if (!is_known) {
-        log_.add(FindingKind::chunk_order, place, "the job does not say that this chunk comes here");
-        chunk_ = std::min(chunk_, static_cast<std::uint32_t>(scene_.chunks.size() - 1));
-        for (std::size_t i = 0; i < scene_.chunks.size(); ++i) {
-            if (lower_case(scene_.chunks[i].name) == stem) chunk_ = static_cast<std::uint32_t>(i);
-        }
-    }
-    direction_ = static_cast<std::uint32_t>(scene_.chunks[chunk_].orientation);
-    take_tool(scene_.chunks[chunk_].tool, place);
-    use_tool(chunk.operation);
-}
-
-void Walk::use_tool(const std::string& operation) {
-    const ToolUse use{operation, tool_};
-    const auto found = std::find(path_.uses.begin(), path_.uses.end(), use);
-    use_ = static_cast<std::uint32_t>(found - path_.uses.begin());
-    if (found == path_.uses.end()) path_.uses.push_back(use);
-    if (std::exchange(is_changed_, false)) path_.tool_changes.push_back(use_);
-}
-
-// A person is told which tool it is, and how long it must be.
-void Walk::check_asked(const CuttingTool& tool, SourcePlace place) {
-    const std::string name = "tool " + std::to_string(tool.number);
-    const bool was_called = asked_tool_ && *asked_tool_ == tool.number;
-    const bool was_asked = !machine_.program.tool_change_call && asked_.find(name + " ") != std::string::npos;
-    if (!was_called && !was_asked) {
-        log_.add(FindingKind::tool_change, place, tool.number, 0,
-                 [&] { return name + " is needed, and nobody was asked for it"; });
-    }
-    if (!was_asked) return;
-    for (const std::string& words : {"(" + as_comment(tool.name) + ")", fixed(gauge_length(tool), 2) + " mm"}) {
-        if (asked_.find(" " + lower_case(words)) != std::string::npos) continue;
-        log_.add(FindingKind::tool_change, asked_place_, tool.number, 0, [&] {
-            std::string text = "who is asked for ";
-            return text.append(name).append(" is not told what it is, expected: ").append(words);
-        });
-    }
-}
-
-// The person or the program that was asked has changed the tool to that of the chunk.
-void Walk::take_tool(std::uint16_t number, SourcePlace place) {
-    std::uint32_t index = 0;
-    while (index + 1 < machine_.tools.size() && machine_.tools[index].number != number) ++index;
-    is_changed_ = !has_tool_ || index != tool_;
-    if (is_changed_) check_asked(machine_.tools[index], place);
-    has_tool_ = true;
-    tool_ = index;
-    asked_.clear();
-}
-
-void Walk::take(const ProgramStep& step) {
-    switch (step.kind) {
-        case StepKind::joint_move:
-            return take_joint_move(step);
-        case StepKind::linear_move:
-            return take_line(step);
-        case StepKind::output:
-        case StepKind::analog_output:
-        case StepKind::wait_input:
-            return signals_.take(step, {});
-        case StepKind::halt:
-            return take_halt(step);
-        case StepKind::call:
-            return take_call(step);
-    }
-}
-
-void Walk::take_halt(const ProgramStep& step) {
-    asked_ = lower_case(program_.texts[step.text]) + " ";
-    asked_place_ = step.place;
-    check_stop(step.place);
-}
-
-void Walk::take_call(const ProgramStep& step) {
-    const std::string& name = program_.texts[step.text];
-    const std::optional<std::string>& change = machine_.program.tool_change_call;
-    if (change && lower_case(*change) == name) {
-        asked_tool_ = static_cast<std::uint16_t>(std::clamp(step.value, 0.0, 65535.0));
-        check_stop(step.place);
-    }
-    signals_.take(step, name);
-}
 
 bool Walk::is_home(bool with_table) const {
     double off = with_table ? std::abs(table_angle_ - scene_.start_table_angle) : 0;
@@ -268,20 +113,6 @@ bool Walk::is_home(bool with_table) const {
         off = std::max(off, std::abs(joints_[axis] - machine_.start.joints[axis]));
     }
     return off <= home_turn;
-}
-
-// Where somebody comes to the spindle, or a program changes the tool.
-void Walk::check_stop(SourcePlace place) {
-    signals_.check_off(FindingKind::tool_change, place, "at this stop");
-    if (is_home(false)) return;
-    log_.add(FindingKind::not_home, place, "the arm is not at home at this stop");
-}
-
-void Walk::check_end(SourcePlace place) {
-    signals_.check_off(FindingKind::left_on, place, "at the end");
-    if (is_home(true)) return;
-    log_.add(FindingKind::not_home, place,
-             "the program does not end at home, expected before: a PTP to the start of the cell file");
 }
 
 TipPose Walk::tip_pose() const {
@@ -336,7 +167,7 @@ void Walk::check_start_from_home(const ProgramStep& step) {
     table_angle_ = table_angle;
 }
 
-void Walk::take_joint_move(const ProgramStep& step) {
+void Walk::take_rapid(const ProgramStep& step) {
     states_.take_joint_move(program_.states[step.state], context_of(step));
     if (is_in_chunk_ && free_from_home_.line > 0) check_start_from_home(step);
     JointSweep sweep = sweep_to(step, step.place);
@@ -478,6 +309,7 @@ void Walk::check_speed(const Joints& before, double way, double feed, SourcePlac
 }  // namespace
 
 ToolPath walk_machine(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log, const Context& context) {
+    if (!scene.cell->machine->robot) return walk_gantry(program, scene, log, context);
     return Walk(program, scene, log).run(context);
 }
 

@@ -145,23 +145,12 @@ void StockMilling::check_cut(const TipLine& line, const CuttingTool& tool, const
                    " mm2 of the way of one diameter, the flute is " + fixed(tool.flute_length, 1) + " mm";
         });
     }
-    // The box is for planning with a gantry; a robot's arm is asked for each pose (machine_walk.h).
-    if (machine_.robot) return;
-    const Vec3 in_cell = apply(scene_.orientations[line.orientation].setup_in_cell, line.to);
-    const Box& workspace = scene_.cell->workspace;
-    double beyond = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        beyond = std::max({beyond, workspace.min[axis] - in_cell[axis], in_cell[axis] - workspace.max[axis]});
-    }
-    if (beyond <= 0.1) return;
-    log_.add(FindingKind::outside_reach, line.place, beyond, beyond,
-             [&] { return "foam is cut " + fixed(beyond, 1) + " mm outside of the reach box of the cell"; });
 }
 
 void StockMilling::check_spindle(const TipLine& line, const CuttingTool& tool) {
     const Spindle& spindle = machine_.spindle;
     const SignalState& signals = line.signals;
-    if (spindle.on && !(signals.spindle_is_on && signals.has_speed)) {
+    if ((spindle.on || !machine_.robot) && !(signals.spindle_is_on && signals.has_speed)) {
         log_.add(FindingKind::spindle_off, line.place,
                  signals.spindle_is_on ? "foam is cut before the chunk has waited for the speed of the spindle"
                                        : "foam is cut, and the chunk has not switched the spindle on");
@@ -170,7 +159,7 @@ void StockMilling::check_spindle(const TipLine& line, const CuttingTool& tool) {
         log_.add(FindingKind::extraction_off, line.place, "foam is cut, and the chunk has not switched extraction on");
     }
     const double rpm = signals.rpm;
-    if (!spindle.speed || (rpm >= 0.995 * tool.rpm_min && rpm <= 1.005 * tool.rpm_max)) return;
+    if ((!spindle.speed && machine_.robot) || (rpm >= 0.995 * tool.rpm_min && rpm <= 1.005 * tool.rpm_max)) return;
     log_.add(FindingKind::spindle_speed, line.place, rpm, std::abs(rpm - tool.rpm_min), [&] {
         return "foam is cut at " + fixed(rpm, 0) + " revolutions/min, tool " + std::to_string(tool.number) +
                " may do " + std::to_string(tool.rpm_min) + " to " + std::to_string(tool.rpm_max);

@@ -20,8 +20,7 @@ void demand(bool holds, const char* what) {
 }
 
 void check_scene(const ReplayScene& scene) {
-    demand(scene.cell != nullptr && scene.cell->machine && scene.cell->machine->robot,
-           "the cell file describes no robot");
+    demand(scene.cell != nullptr && scene.cell->machine, "the cell file describes no machine");
     demand(!scene.orientations.empty(), "the job has no orientation");
     demand(!scene.chunks.empty(), "the job names no program");
     const auto has_tool = [&](std::uint16_t number) {

@@ -16,7 +16,7 @@
 
 namespace qchopper {
 
-// Programs of the cell file that a program may call (KrlOptions::calls).
+// Programs of the cell file that a program may call (read_program.h).
 std::vector<std::string> called_programs(const Cell& cell);
 
 class SignalWalk {
@@ -25,21 +25,22 @@ class SignalWalk {
     SignalWalk(const CellMachine& machine, FindingLog& log) : machine_(machine), log_(log) {}
 
     void enter_chunk() { alone_ = {}; }
-    // An output, an input or a call; `called` is the name of the program, in lower case.
-    void take(const ProgramStep& step, const std::string& called);
+    // An output, an input, a call or a word of its language; `name` is the number or the name of the signal, or the
+    // name of the program, in lower case.
+    void take(const ProgramStep& step, const std::string& name);
     // Of the chunk started alone.
     const SignalState& in_chunk() const { return alone_; }
     // Finds it if spindle or extraction is on, and says which line was expected; `when` completes "is still on ".
     void check_off(FindingKind kind, SourcePlace place, const std::string& when) const;
 
  private:
-    void take_output(const ProgramStep& step);
+    void take_output(const ProgramStep& step, const std::string& name);
     void take_speed(double rpm);
     void take_call(const ProgramStep& step, const std::string& called);
     void switch_spindle(bool is_on);
     void switch_extraction(bool is_on);
     void reach_speed();
-    void refuse(const ProgramStep& step, const std::string& what) const;
+    void refuse(const ProgramStep& step, const std::string& what, const std::string& name) const;
 
     const CellMachine& machine_;
     FindingLog& log_;

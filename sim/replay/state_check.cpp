@@ -1,4 +1,4 @@
-// Differences of frames in mm and as one angle; of load data in mass, centre and tensor.
+// Differences of frames in mm and as one angle; of load data in mass, centre and tensor. O(states).
 
 #include "sim/replay/state_check.h"
 
@@ -16,6 +16,29 @@ namespace {
 constexpr double frame_mm = 0.01;  // of $TOOL and $BASE
 constexpr double frame_turn = 0.01 * degree;
 constexpr double written = 1.001;  // what rounding of a value may do to a limit
+
+// How a language calls what is stated.
+struct StateWords {
+    const char* tool;
+    const char* base;
+    const char* load;
+    const char* acceleration;
+    const char* turn;
+    const char* axis_speed;
+    const char* axis_acceleration;
+};
+
+const StateWords& words_of(const CellMachine& machine) {
+    static constexpr StateWords krl{"$TOOL", "$BASE", "$LOAD", "$ACC.CP", "$VEL.ORI", "$VEL_AXIS", "$ACC_AXIS"};
+    static constexpr StateWords rapid{"the frame of the tooldata",
+                                      "the frame of the wobjdata",
+                                      "the load of the tooldata",
+                                      "PathAccLim",
+                                      "v_ori of the speeddata, ",
+                                      "VelSet, axis ",
+                                      "AccSet, axis "};
+    return machine.program.dialect == Dialect::rapid ? rapid : krl;
+}
 
 std::string words(const CarriedLoad& load) {
     return fixed(load.mass_kg, 2) + " kg at " + fixed(load.centre.x, 1) + " " + fixed(load.centre.y, 1) + " " +
@@ -48,10 +71,11 @@ void StateCheck::take_line(const ModalState& state, const MoveContext& move) {
     check_base_frame(state, move);
     check_load(state, move);
     const ProgramSettings& most = machine_.program;
-    check_limit("$ACC.CP", state.acceleration / 1000, most.acceleration / 1000, "m/s2", move.place);
+    check_limit(words_of(machine_).acceleration, state.acceleration / 1000, most.acceleration / 1000, "m/s2",
+                move.place);
     for (std::size_t i = 0; i < 2; ++i) {
-        check_limit("$VEL.ORI" + std::to_string(i + 1), state.turn_speed[i] / degree, most.turn_speed / degree,
-                    "degrees/s", move.place);
+        check_limit(words_of(machine_).turn + std::to_string(i + 1), state.turn_speed[i] / degree,
+                    most.turn_speed / degree, "degrees/s", move.place);
     }
 }
 
@@ -61,8 +85,9 @@ void StateCheck::take_joint_move(const ModalState& state, const MoveContext& mov
     const double most = 100 * machine_.program.joint_share;
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         const std::string number = "[" + std::to_string(axis + 1) + "]";
-        check_limit("$VEL_AXIS" + number, 100 * state.axis_speed[axis], most, "%", move.place);
-        check_limit("$ACC_AXIS" + number, 100 * state.axis_acceleration[axis], most, "%", move.place);
+        check_limit(words_of(machine_).axis_speed + number, 100 * state.axis_speed[axis], most, "%", move.place);
+        check_limit(words_of(machine_).axis_acceleration + number, 100 * state.axis_acceleration[axis], most, "%",
+                    move.place);
     }
 }
 
@@ -81,8 +106,8 @@ void StateCheck::check_tool_frame(const ModalState& state, const MoveContext& mo
     const double turn = turn_between(said, nose).angle;
     if (off <= frame_mm && turn <= frame_turn) return;
     log_.add(FindingKind::tool_frame, move.place, off, std::max(off, turn * 1000), [&] {
-        return "$TOOL is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) + " degrees from tool " +
-               std::to_string(move.tool->number) + " of the cell file";
+        return std::string(words_of(machine_).tool) + " is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) +
+               " degrees from tool " + std::to_string(move.tool->number) + " of the cell file";
     });
 }
 
@@ -97,8 +122,10 @@ void StateCheck::check_base_frame(const ModalState& state, const MoveContext& mo
     const std::uint32_t machine = turns ? static_cast<std::uint32_t>(machine_.rotary_table->external_axis) + 1 : 0;
     if (off <= frame_mm && turn <= frame_turn && state.base_machine == machine) return;
     log_.add(FindingKind::base_frame, move.place, off, std::max(off, turn * 1000), [&] {
-        if (state.base_machine != machine) return std::string("$BASE is not chained to the table as the cell is built");
-        return "$BASE is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) + " degrees from where the job says";
+        if (state.base_machine != machine)
+            return std::string(words_of(machine_).base) + " is not chained to the table as the cell is built";
+        return std::string(words_of(machine_).base) + " is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) +
+               " degrees from where the job says";
     });
 }
 
@@ -115,8 +142,8 @@ void StateCheck::check_load(const ModalState& state, const MoveContext& move) {
     if (least <= 1) return;
     const LoadTolerance& tolerance = machine_.load_tolerance;
     log_.add(FindingKind::load, move.place, least, least, [&] {
-        return "$LOAD is " + words(stated) + ", spindle and tool are " + words(nearest) +
-               "; the moments of inertia differ by up to " + fixed(inertia_off(stated, nearest), 3) +
+        return std::string(words_of(machine_).load) + " is " + words(stated) + ", spindle and tool are " +
+               words(nearest) + "; the moments of inertia differ by up to " + fixed(inertia_off(stated, nearest), 3) +
                " kg m2 (allowed: " + fixed(tolerance.mass_kg, 2) + " kg, " + fixed(tolerance.centre_mm, 1) + " mm, " +
                fixed(tolerance.inertia_kg_m2, 3) + " kg m2)";
     });

@@ -264,7 +264,7 @@ void fill_in(ReadJob& job, const Cell& cell) {
         files.push_back({name, {job.files.at(name).begin(), job.files.at(name).end()}});
     }
     const std::string& entry = job.program->entry;
-    const auto read = summarise_chunks(read_krl(files, entry.substr(0, entry.find('.')), {called_programs(cell)}));
+    const auto read = summarise_chunks(read_krl(files, entry.substr(0, entry.find('.')), called_programs(cell)));
     for (std::size_t i = 0; i < read.size(); ++i) {
         JobChunk& chunk = job.program->chunks[i];
         chunk = {chunk.file,     chunk.tool,  chunk.orientation, read[i].moves,

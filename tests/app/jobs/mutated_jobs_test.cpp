@@ -8,8 +8,6 @@
 
 #include "base/error.h"
 #include "sim/program/chunk_summary.h"
-#include "sim/program/krl_reader.h"
-#include "sim/replay/signal_walk.h"
 #include "tests/app/jobs/proven_job.h"
 #include "tests/sim/replay/mutations.h"
 
@@ -29,7 +27,7 @@ struct MutatedJobs : ::testing::TestWithParam<std::string> {
         const JobVerdict as_made = judged(remade(proven, texts_of(proven.job)), proven.cell);
         ASSERT_TRUE(as_made.is_positive) << describe(as_made.findings.front());
         std::size_t refused = 0;
-        for (const Mutation& mutation : all_mutations()) {
+        for (const Mutation& mutation : mutations_of(proven_job(GetParam()).cell.cell.machine->program.dialect)) {
             const auto mutant = mutation.apply(texts_of(proven.job));
             if (!mutant) {
                 std::printf("%s: no place for it\n", mutation.name.c_str());
@@ -56,7 +54,7 @@ TEST_P(MutatedJobs, EachIsRefused) {
 // Two millimetres of foam are within a tolerance of 2.5 mm, which the manifest asks for and the cell file does not.
 TEST_P(MutatedJobs, TheManifestWidensNoTolerance) {
     const ProvenJob& proven = proven_job(GetParam());
-    const std::vector<Mutation> all = all_mutations();
+    const std::vector<Mutation> all = mutations_of(proven_job(GetParam()).cell.cell.machine->program.dialect);
     const auto higher =
         std::find_if(all.begin(), all.end(), [](const Mutation& m) { return m.name == "all_2_mm_higher"; });
     ASSERT_NE(higher, all.end());
@@ -69,6 +67,7 @@ TEST_P(MutatedJobs, TheManifestWidensNoTolerance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kuka, MutatedJobs, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
+INSTANTIATE_TEST_SUITE_P(OtherDialects, MutatedJobs, ::testing::Values("irb6640-185-2.8", "gantry-3axis"));
 
 }  // namespace
 }  // namespace qchopper

@@ -12,8 +12,7 @@
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "sim/program/chunk_summary.h"
-#include "sim/program/krl_reader.h"
-#include "sim/replay/signal_walk.h"
+#include "sim/replay/read_program.h"
 #include "tests/app/ball_cap.h"
 
 namespace qchopper {
@@ -39,7 +38,7 @@ std::vector<JobChunk> called(const JobProgram& program, const ProgramFiles& file
 
 void fill_in(JobProgram& program, const ProgramFiles& files, const Cell& cell) {
     try {
-        const auto read = summarise_chunks(read_krl(files, stem_of(program.entry), {called_programs(cell)}));
+        const auto read = summarise_chunks(read_program(program.dialect, files, stem_of(program.entry), cell));
         for (std::size_t i = 0; i < std::min(read.size(), program.chunks.size()); ++i) {
             JobChunk& chunk = program.chunks[i];
             chunk = {chunk.file,     chunk.tool,  chunk.orientation, read[i].moves,

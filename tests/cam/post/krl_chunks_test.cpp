@@ -76,7 +76,7 @@ TEST(KrlChunks, HoldEveryRunOnceAndAreSmallEnough) {
         cell.machine->program.lines_per_chunk = static_cast<std::uint32_t>(random.whole(200, 900));
         cell.machine->program.memory_bytes = static_cast<std::uint32_t>(random.whole(40'000, 200'000));
         const Program program = random.make(cell, random.whole(1, 6), 12, 60);
-        const std::vector<ProgramPart> parts = post_krl(program, cell, {3});
+        const std::vector<ProgramPart> parts = post_program(program, cell, {3});
         std::size_t order = 0;
         std::vector<std::size_t> runs(program.operations.size(), 0);
         std::set<std::string> names;
@@ -113,7 +113,7 @@ TEST(KrlChunks, StateTheLimitsOfTheCellFile) {
     cell.machine->program.acceleration = 1500;
     cell.machine->program.turn_speed = std::numbers::pi / 4;
     cell.machine->program.joint_share = 0.2;
-    const ProgramPart part = post_krl(RandomProgram(4).make(cell, 2, 3, 5), cell, {3}).front();
+    const ProgramPart part = post_program(RandomProgram(4).make(cell, 2, 3, 5), cell, {3}).front();
     for (const ProgramText& file : part.files) {
         if (file.name.ends_with(".dat")) continue;
         const bool is_chunk = file.name.starts_with("qc_3_0");
@@ -131,7 +131,7 @@ TEST(KrlChunks, SayWhatTheyAreFor) {
     Program program = RandomProgram(5).make(cell, 4, 3, 5);
     const std::vector<std::string> words{"roughing", "finishing", "fine finishing", "drilling"};
     for (std::size_t i = 0; i < words.size(); ++i) program.operations[i].kind = static_cast<OperationKind>(i);
-    const ProgramPart part = post_krl(program, cell, {3}).front();
+    const ProgramPart part = post_program(program, cell, {3}).front();
     ASSERT_GE(part.chunks.size(), words.size());
     for (const PostedChunk& chunk : part.chunks) {
         const std::string& text = test_krl::text_of(part, chunk.name);
@@ -143,7 +143,7 @@ TEST(KrlChunks, AreNotSmallerThanTheyMustBe) {
     RandomProgram random(2);
     Cell cell = kr60();
     const Program program = random.make(cell, 1, 300, 60);
-    const std::vector<ProgramPart> parts = post_krl(program, cell, {3});
+    const std::vector<ProgramPart> parts = post_program(program, cell, {3});
     ASSERT_EQ(parts.size(), 1U);
     for (std::size_t i = 0; i + 1 < parts[0].chunks.size(); ++i) {
         const std::string& text = test_krl::text_of(parts[0], parts[0].chunks[i].name);
@@ -157,7 +157,7 @@ TEST(KrlChunks, PartsAreProgramsOfTheirOwn) {
     Cell cell = kr60();
     cell.machine->program.memory_bytes = 60'000;
     const Program program = random.make(cell, 8, 12, 60);
-    const std::vector<ProgramPart> parts = post_krl(program, cell, {12});
+    const std::vector<ProgramPart> parts = post_program(program, cell, {12});
     ASSERT_GT(parts.size(), 1U);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::string stem = "qc_12_p" + std::to_string(k + 1);
@@ -176,7 +176,7 @@ TEST(KrlChunks, PartsBeginAndEndAtHome) {
     test_programs::Job job = test_programs::job_in(kr60(), {250, 200, 150}, 35, 200, 2);
     job.cell.machine->program.memory_bytes = 90'000;
     const Program program = test_programs::program_of(job);
-    const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program, job.cell, {7});
     ASSERT_GT(parts.size(), 2U);
     for (const ProgramPart& part : parts) {
         std::size_t bytes = 0;
@@ -194,16 +194,16 @@ TEST(KrlChunks, RefusesAChunkThatDoesNotFit) {
     Cell cell = kr60();
     cell.machine->program.memory_bytes = 10'000;
     Program program = random.make(cell, 1, 1, 1);
-    EXPECT_EQ(post_krl(program, cell, {3}).size(), 1U);
+    EXPECT_EQ(post_program(program, cell, {3}).size(), 1U);
     program.operations[0].runs[0].moves.assign(400, {{1, 2, 3}, MoveKind::cut, false, 100});
     for (std::size_t i = 0; i < 400; ++i) program.operations[0].runs[0].moves[i].tip.x = static_cast<double>(i);
-    EXPECT_THROW(post_krl(program, cell, {3}), InputError);
+    EXPECT_THROW(post_program(program, cell, {3}), InputError);
 }
 
 // A line of the finishing that carries most of the bytes.
 TEST(KrlChunks, LinesAreShort) {
     const test_programs::Job job = test_programs::job_in(kr60(), {250, 200, 150}, 35, 200, 2);
-    const std::vector<ProgramPart> parts = post_krl(test_programs::program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(test_programs::program_of(job), job.cell, {7});
     std::size_t bytes = 0;
     std::size_t lines = 0;
     for (const ProgramPart& part : parts) {

@@ -1,6 +1,6 @@
 // Emitted programs against the program that they were made from, and against the arm.
 
-#include "cam/post/krl.h"
+#include "cam/post/post.h"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ std::vector<Vec3> expected_tips(const Program& program, const PostedChunk& chunk
 TEST(PostKrl, HasEveryMoveOfTheProgram) {
     for (const Job& job : jobs()) {
         const Program program = program_of(job);
-        for (const ProgramPart& part : post_krl(program, job.cell, {7})) {
+        for (const ProgramPart& part : post_program(program, job.cell, {7})) {
             for (const PostedChunk& chunk : part.chunks) {
                 std::vector<Vec3> tips;
                 for (const ScannedLine& line : chunk_lines(part, chunk)) {
@@ -117,7 +117,7 @@ TEST(PostKrl, HasEveryMoveOfTheProgram) {
 TEST(PostKrl, HasTheJointsOfTheProgram) {
     for (const Job& job : jobs()) {
         const Program program = program_of(job);
-        const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
+        const std::vector<ProgramPart> parts = post_program(program, job.cell, {7});
         for (const ProgramPart& part : parts) {
             for (const PostedChunk& chunk : part.chunks) {
                 const ProgramOperation& operation = program.operations[chunk.operation];
@@ -187,7 +187,7 @@ double mismatch(const Job& job, const FirstPose& first, double retract) {
 TEST(PostKrl, StatesPosesThatTheJointsBeforeThemHold) {
     for (const Job& job : jobs()) {
         const Program program = program_of(job);
-        for (const ProgramPart& part : post_krl(program, job.cell, {7})) {
+        for (const ProgramPart& part : post_program(program, job.cell, {7})) {
             for (const PostedChunk& chunk : part.chunks) {
                 const ProgramOperation& operation = program.operations[chunk.operation];
                 const double retract = chunk.first_run == 0 ? operation.entry.retract : 0;
@@ -201,7 +201,7 @@ TEST(PostKrl, StatesPosesThatTheJointsBeforeThemHold) {
 TEST(PostKrl, FramesOfTheTestsAreSkew) {
     for (const Job& job : {jobs()[2], jobs()[3]}) {
         const Program program = program_of(job);
-        const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
+        const std::vector<ProgramPart> parts = post_program(program, job.cell, {7});
         const FirstPose right = first_pose(chunk_lines(parts[0], parts[0].chunks.back()));
         const double retract = program.operations[parts[0].chunks.back().operation].entry.retract;
         const std::array<ScannedLine FirstPose::*, 3> frames{&FirstPose::tool, &FirstPose::base, &FirstPose::pose};
@@ -223,7 +223,7 @@ TEST(PostKrl, FramesOfTheTestsAreSkew) {
 
 TEST(PostKrl, ToolFrameIsThatOfTheCellFile) {
     const Job& job = jobs()[2];
-    const std::vector<ProgramPart> parts = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program_of(job), job.cell, {7});
     const Spindle& spindle = job.cell.machine->spindle;
     const Pose tool = frame_of(first_pose(chunk_lines(parts[0], parts[0].chunks[0])).tool);
     const Vec3 axis = rotate(spindle.spindle_in_flange, {1, 0, 0});
@@ -235,7 +235,7 @@ TEST(PostKrl, ToolFrameIsThatOfTheCellFile) {
 // A point of the setup is in the cell where the table's turn, the base and the coordinates put it.
 TEST(PostKrl, PointsOnTheTableTurnWithIt) {
     const Job& job = jobs()[3];
-    const std::vector<ProgramPart> parts = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program_of(job), job.cell, {7});
     for (const PostedChunk& chunk : parts[0].chunks) {
         const FirstPose first = first_pose(chunk_lines(parts[0], chunk));
         const Pose from_text = table_in_cell(job.cell, first.pose.values.at("E1") * degree) * frame_of(first.base);
@@ -247,7 +247,7 @@ TEST(PostKrl, PointsOnTheTableTurnWithIt) {
 
 TEST(PostKrl, HasOnlyTheCharactersAndFormsOfThePage) {
     for (const Job& job : jobs()) {
-        for (const ProgramPart& part : post_krl(program_of(job), job.cell, {7})) {
+        for (const ProgramPart& part : post_program(program_of(job), job.cell, {7})) {
             for (const ProgramText& file : part.files) {
                 ASSERT_TRUE(file.text.ends_with("\r\n"));
                 EXPECT_EQ(std::count(file.text.begin(), file.text.end(), '\r'),
@@ -270,7 +270,7 @@ TEST(PostKrl, HasOnlyTheCharactersAndFormsOfThePage) {
 TEST(PostKrl, BeginsAndEndsAsThePageSays) {
     const Job& job = jobs()[1];
     const Program program = program_of(job);
-    const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program, job.cell, {7});
     ASSERT_EQ(parts.size(), 1U);
     EXPECT_EQ(parts[0].entry, "qc_7.src");
     EXPECT_EQ(parts[0].files[1].name, "qc_7.dat");
@@ -295,7 +295,7 @@ TEST(PostKrl, BeginsAndEndsAsThePageSays) {
 // In every chunk the spindle has its speed before the first move.
 TEST(PostKrl, StartsTheSpindleInEveryChunk) {
     const Job& job = jobs()[0];
-    const std::vector<ProgramPart> parts = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program_of(job), job.cell, {7});
     for (const PostedChunk& chunk : parts[0].chunks) {
         std::vector<std::string> order;
         for (const ScannedLine& line : chunk_lines(parts[0], chunk)) {
@@ -317,7 +317,7 @@ TEST(PostKrl, CallsWhatTheCellFileNames) {
     machine.spindle.at_speed = Signal{SignalKind::call, "spindle_wait", 1};
     machine.spindle.off = Signal{SignalKind::call, "spindle_off", 1};
     machine.program.tool_change_call = "take_tool";
-    const std::vector<ProgramPart> parts = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program_of(job), job.cell, {7});
     const std::string& main = parts[0].files[0].text;
     EXPECT_NE(main.find("take_tool(1)\r\n"), std::string::npos);
     EXPECT_NE(main.find("take_tool(4)\r\n"), std::string::npos);
@@ -332,7 +332,7 @@ TEST(PostKrl, SpeedsAreThoseOfTheMoves) {
     for (JointRange& range : job.cell.machine->robot->ranges) range.speed *= 0.05;
     job.reachability = {};
     const Program program = program_of(job);
-    for (const ProgramPart& part : post_krl(program, job.cell, {7})) {
+    for (const ProgramPart& part : post_program(program, job.cell, {7})) {
         for (const PostedChunk& chunk : part.chunks) {
             const ProgramOperation& operation = program.operations[chunk.operation];
             std::vector<double> speeds;
@@ -355,10 +355,10 @@ TEST(PostKrl, SpeedsAreThoseOfTheMoves) {
 
 TEST(PostKrl, GivesTheSameBytesForAnyNumberOfThreadsAndAnyLocale) {
     const Job& job = jobs()[1];
-    const std::vector<ProgramPart> parts = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> parts = post_program(program_of(job), job.cell, {7});
     const ThreadLimit one(1);
     const test_krl::CommaLocale comma;
-    const std::vector<ProgramPart> again = post_krl(program_of(job), job.cell, {7});
+    const std::vector<ProgramPart> again = post_program(program_of(job), job.cell, {7});
     EXPECT_EQ(again, parts);
 }
 
@@ -375,7 +375,7 @@ TEST(PostKrl, RoundsNoCornerThatIsAStop) {
              {{30, 2, 3}, MoveKind::cut, 2, 100}};
     const auto lines = [&] {
         std::vector<std::string> found;
-        for (const ScannedLine& line : scan(post_krl(program, jobs()[0].cell, {7})[0].files[2].text)) {
+        for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[2].text)) {
             if (line.word == "LIN" && line.names.size() == 3) found.push_back(line.text.substr(4));
         }
         found.resize(4);
@@ -397,7 +397,7 @@ TEST(PostKrl, StatesHowFarEachCornerIsRounded) {
                                            {{30, 2, 3}, MoveKind::cut, 0.3, 100}, {{40, 2, 3}, MoveKind::cut, 5, 100},
                                            {{50, 2, 3}, MoveKind::cut, 0, 100}};
     std::vector<std::string> found;
-    for (const ScannedLine& line : scan(post_krl(program, jobs()[0].cell, {7})[0].files[2].text)) {
+    for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[2].text)) {
         if (line.text.starts_with("$APO.CDIS")) found.push_back(line.text);
         if (line.text.ends_with("C_DIS")) found.emplace_back("rounded");
     }
@@ -405,17 +405,14 @@ TEST(PostKrl, StatesHowFarEachCornerIsRounded) {
                                                "$APO.CDIS = 0.300", "rounded", "$APO.CDIS = 5.000", "rounded"}));
 }
 
-TEST(PostKrl, RefusesOtherDialectsAndMissingSignals) {
+TEST(PostKrl, RefusesMissingSignals) {
     const Job& job = jobs()[0];
     const Program program = program_of(job);
-    Cell cell = job.cell;
-    cell.machine->program.dialect = Dialect::rapid;
-    EXPECT_THROW(post_krl(program, cell, {7}), NoPostYet);
     const auto refusal = [&](const std::function<void(Spindle&)>& change) {
         Cell lacking = job.cell;
         change(lacking.machine->spindle);
         try {
-            post_krl(program, lacking, {7});
+            post_program(program, lacking, {7});
         } catch (const InputError& error) {
             return std::string(error.what());
         }
@@ -432,20 +429,20 @@ TEST(PostKrl, RefusesValuesThatNoProgramMayHave) {
     const Program good = program_of(job);
     Program bad = good;
     bad.operations[1].runs[0].moves[2].tip.z = std::nan("");
-    EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
+    EXPECT_THROW(post_program(bad, job.cell, {7}), InputError);
     bad = good;
     bad.operations[1].runs[0].moves[2].speed = 0.01;
-    EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
+    EXPECT_THROW(post_program(bad, job.cell, {7}), InputError);
     bad = good;
     bad.operations[0].runs[0].start.x = 5000;
-    EXPECT_THROW(post_krl(bad, job.cell, {7}), InputError);
+    EXPECT_THROW(post_program(bad, job.cell, {7}), InputError);
 }
 
 TEST(PostKrl, ForAnotherNumberOfThePieceOtherNamesAreAllThatChanges) {
     for (const Job& job : jobs()) {
         const Program program = program_of(job);
-        const std::vector<ProgramPart> first = post_krl(program, job.cell, {7});
-        const std::vector<ProgramPart> second = post_krl(program, job.cell, {8});
+        const std::vector<ProgramPart> first = post_program(program, job.cell, {7});
+        const std::vector<ProgramPart> second = post_program(program, job.cell, {8});
         ASSERT_EQ(first.size(), second.size());
         for (std::size_t p = 0; p < first.size(); ++p) {
             EXPECT_EQ(renumbered_name(first[p].entry, 7, 8), second[p].entry);

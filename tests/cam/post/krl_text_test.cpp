@@ -22,18 +22,18 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 TEST(KrlNumber, HasFixedDecimalsAndNoMinusZero) {
-    EXPECT_EQ(krl::number("X", 1.005, 2, 5000), "1.00");
-    EXPECT_EQ(krl::number("X", -12.345678, 2, 5000), "-12.35");
-    EXPECT_EQ(krl::number("X", -0.004, 2, 5000), "0.00");
-    EXPECT_EQ(krl::number("X", -0.0, 3, 5000), "0.000");
-    EXPECT_EQ(krl::number("X", 1e-20, 4, 5000), "0.0000");
-    EXPECT_EQ(krl::number("X", 4999.999, 2, 5000), "5000.00");
+    EXPECT_EQ(written_number("X", 1.005, 2, 5000), "1.00");
+    EXPECT_EQ(written_number("X", -12.345678, 2, 5000), "-12.35");
+    EXPECT_EQ(written_number("X", -0.004, 2, 5000), "0.00");
+    EXPECT_EQ(written_number("X", -0.0, 3, 5000), "0.000");
+    EXPECT_EQ(written_number("X", 1e-20, 4, 5000), "0.0000");
+    EXPECT_EQ(written_number("X", 4999.999, 2, 5000), "5000.00");
 }
 
 TEST(KrlNumber, RefusesWhatIsNotFiniteOrTooLarge) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 5000.0, -5000.0, 1e300}) {
         try {
-            krl::number("coordinate X", bad, 2, 5000);
+            written_number("coordinate X", bad, 2, 5000);
             ADD_FAILURE() << bad;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find("coordinate X"), std::string::npos);
@@ -46,7 +46,7 @@ TEST(KrlNumber, KnowsNoLocale) {
     std::ostringstream stream;
     stream << 1234.5;
     EXPECT_EQ(stream.str(), "1.234,5");
-    EXPECT_EQ(krl::number("X", 1234.5, 2, 5000), "1234.50");
+    EXPECT_EQ(written_number("X", 1234.5, 2, 5000), "1234.50");
 }
 
 // Poses of a KR 120 R2500 pro.

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cam/post/krl.h"
+#include "cam/post/post.h"
 
 namespace qchopper::test_krl {
 

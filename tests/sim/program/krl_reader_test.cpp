@@ -62,7 +62,7 @@ std::vector<ProgramFile> files_of(const std::string& main_body, const std::strin
 }
 
 ParsedProgram read(const std::string& chunk_body) {
-    return read_krl(files_of(init + "QC_1_001( )\n" + restored, chunk_body), "qc_1", {{"change_tool"}});
+    return read_krl(files_of(init + "QC_1_001( )\n" + restored, chunk_body), "qc_1", {"change_tool"});
 }
 
 TEST(KrlReader, ReadsMovesWithTheirModalValues) {

@@ -98,7 +98,7 @@ BoxJob sawn_box_job(const std::string& cell_name) {
 }
 
 ParsedProgram read_back(const BoxJob& job, const std::vector<ProgramFile>& files) {
-    return read_krl(files, "qc_1", {called_programs(job.cell)});
+    return read_krl(files, "qc_1", called_programs(job.cell));
 }
 
 }  // namespace qchopper

@@ -95,10 +95,16 @@ bool swap_components(std::string& line, const std::string& a, const std::string&
 
 bool lose_chunk(ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
     if (calls.size() < 2) return false;
-    const std::string stem = lower(lines[calls.back()].substr(0, lines[calls.back()].find('(')));
+    const std::string stem = called_stem(files, lines[calls.back()]);
     std::erase_if(files, [&](const ProgramFile& file) { return stem_of(file) == stem; });
     lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(calls.back()));
     return true;
+}
+
+// Whether a comment of the file says so, in any of the languages.
+bool is_for(const ProgramFile& file, const std::string& operation) {
+    return file.text.find("operation " + operation + "\r\n") != std::string::npos ||
+           file.text.find("operation " + operation + ")\r\n") != std::string::npos;
 }
 
 // The first chunk, or the last one, that says it is for an operation.
@@ -107,11 +113,10 @@ auto lose_operation(const std::string& operation, bool is_last) {
         std::optional<std::size_t> found;
         std::string stem_found;
         for (const std::size_t call : calls) {
-            const std::string stem = lower(lines[call].substr(0, lines[call].find('(')));
+            const std::string stem = called_stem(files, lines[call]);
             const auto file =
                 std::find_if(files.begin(), files.end(), [&](const ProgramFile& f) { return stem_of(f) == stem; });
-            if (file == files.end() || file->text.find(";operation " + operation + "\r\n") == std::string::npos)
-                continue;
+            if (file == files.end() || !is_for(*file, operation)) continue;
             if (found && !is_last) continue;
             found = call;
             stem_found = stem;
@@ -129,7 +134,7 @@ Mutation in_roughing(const std::string& name, const Change& change) {
         ProgramFiles changed = files;
         bool is_changed = false;
         for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) {
-            if (files[i].text.find(";operation roughing\r\n") == std::string::npos) continue;
+            if (!is_for(files[i], "roughing")) continue;
             Lines lines = lines_of(files[i].text);
             if (!change(lines)) continue;
             changed[i].text = text_of(lines);
@@ -164,12 +169,10 @@ std::optional<ProgramFiles> swap_chunks(const ProgramFiles& files) {
     if (first >= files.size() || last == first) return std::nullopt;
     ProgramFiles changed = files;
     const auto renamed = [](const ProgramFile& from, const ProgramFile& to) {
-        Lines lines = lines_of(from.text);
-        const std::string stem = to.name.substr(0, to.name.find('.'));
-        for (std::string& line : lines) {
-            if (begins(line, "def ")) line = "DEF " + stem + "( )";
-        }
-        return text_of(lines);
+        std::string text = from.text;
+        for (std::size_t at = 0; replace_first(text, at, stem_of(from), stem_of(to));)
+            at = text.find(stem_of(to), at) + 1;
+        return text;
     };
     changed[first].text = renamed(files[last], files[first]);
     changed[last].text = renamed(files[first], files[last]);
@@ -388,7 +391,7 @@ void add_chunks(std::vector<Mutation>& all) {
     }));
     all.push_back(in_main("file_lost", [](ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
         if (calls.empty()) return false;
-        const std::string stem = lower(lines[calls.back()].substr(0, lines[calls.back()].find('(')));
+        const std::string stem = called_stem(files, lines[calls.back()]);
         std::erase_if(files, [&](const ProgramFile& file) { return stem_of(file) == stem; });
         return true;
     }));
@@ -440,14 +443,24 @@ std::vector<Mutation> all_mutations() {
     return all;
 }
 
+std::vector<Mutation> chunk_mutations() {
+    std::vector<Mutation> all;
+    add_chunks(all);
+    return all;
+}
+
+std::vector<Mutation> mutations_of(Dialect dialect) {
+    if (dialect == Dialect::rapid) return rapid_mutations();
+    return dialect == Dialect::ngc ? ngc_mutations() : all_mutations();
+}
+
 std::vector<std::string> called_chunks(const ProgramFiles& files, const std::string& main) {
     std::vector<std::string> called;
     for (const ProgramFile& file : files) {
         if (stem_of(file) != lower(main) || !is_source(file)) continue;
         for (const std::string& line : lines_of(file.text)) {
-            for (const ProgramFile& chunk : files) {
-                if (is_source(chunk) && begins(line, stem_of(chunk) + "(")) called.push_back(stem_of(chunk));
-            }
+            const std::string stem = called_stem(files, line);
+            if (!stem.empty()) called.push_back(stem);
         }
     }
     return called;

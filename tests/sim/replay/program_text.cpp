@@ -45,12 +45,27 @@ std::string stem_of(const ProgramFile& file) {
 }
 
 bool is_source(const ProgramFile& file) {
-    return lower(file.name).ends_with(".src");
+    const std::string name = lower(file.name);
+    return name.ends_with(".src") || name.ends_with(".mod") || name.ends_with(".ngc");
 }
 
-// The main program is the one that initialises.
+// The main program is the one that initialises, is called so, or ends.
 static bool is_main(const ProgramFile& file) {
-    return lower(file.text).find("#initmov") != std::string::npos;
+    const std::string text = lower(file.text);
+    return text.find("#initmov") != std::string::npos || text.find("proc main()") != std::string::npos ||
+           text.ends_with("m2\r\n");
+}
+
+bool is_call(const std::string& line, const std::string& stem) {
+    return begins(line, stem + "(") || begins(line, stem + "_run;") || begins(line, "%\"" + stem + "_run\"") ||
+           begins(line, "o<" + stem + "> call");
+}
+
+std::string called_stem(const ProgramFiles& files, const std::string& line) {
+    for (const ProgramFile& file : files) {
+        if (is_source(file) && is_call(line, stem_of(file))) return stem_of(file);
+    }
+    return {};
 }
 
 std::size_t next_chunk(const ProgramFiles& files, std::size_t from) {
@@ -181,9 +196,7 @@ Mutation in_main(const std::string& name,
                 Lines lines = lines_of(files[main].text);
                 std::vector<std::size_t> calls;
                 for (std::size_t i = 0; i < lines.size(); ++i) {
-                    for (const ProgramFile& file : files) {
-                        if (is_source(file) && begins(lines[i], stem_of(file) + "(")) calls.push_back(i);
-                    }
+                    if (!called_stem(files, lines[i]).empty()) calls.push_back(i);
                 }
                 if (!change(changed, lines, calls)) return std::nullopt;
                 const auto at = std::find_if(changed.begin(), changed.end(),

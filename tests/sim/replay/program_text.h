@@ -1,5 +1,5 @@
 // Changes of the text of robot programs, of which the mutations are made: lines are taken apart by their first word,
-// components of {...} by their names. A change says whether it has changed anything.
+// components of {...} of KRL by their names. A change says whether it has changed anything.
 
 #pragma once
 
@@ -27,6 +27,9 @@ bool replace_first(std::string& text, std::size_t from, const std::string& what,
 
 std::string stem_of(const ProgramFile& file);
 bool is_source(const ProgramFile& file);
+// Whether a line calls the chunk of this name, in any of the languages; the chunk that it calls, empty: none.
+bool is_call(const std::string& line, const std::string& stem);
+std::string called_stem(const ProgramFiles& files, const std::string& line);
 // The index of the next source that is not the main program; the number of files if there is none.
 std::size_t next_chunk(const ProgramFiles& files, std::size_t from = 0);
 

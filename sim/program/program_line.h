@@ -1,4 +1,4 @@
-// The words of one line of a KRL program, and the error for a line that cannot be interpreted.
+// The words of one line of a program in any language, and the error for a line that cannot be interpreted.
 //
 // O(characters passed); nothing is kept but views into the text (tests/sim/program/krl_reader_test.cpp).
 
@@ -16,9 +16,6 @@ namespace qchopper {
 // Letters A-Z made small.
 std::string lower_case(std::string_view text);
 
-// Whether a line says nothing: it is empty or a comment.
-bool is_krl_comment(std::string_view line);
-
 // Of kind mesh; its message names file and line too.
 class LineRefused : public InputError {
  public:
@@ -33,16 +30,22 @@ class LineRefused : public InputError {
 [[noreturn]] void refuse_line(const std::string& file, std::size_t line, const std::string& why);
 
 // Reads a line from left to right. What is asked for and does not stand there is refused by refuse_line().
-class KrlLine {
+class ProgramLine {
  public:
     // Both texts must outlive it.
-    KrlLine(std::string_view text, const std::string& file, std::size_t line)
+    ProgramLine(std::string_view text, const std::string& file, std::size_t line)
         : rest_(text), file_(&file), line_(line) {}
 
     // The next word: letters, digits, _ and $, in lower case; empty if none begins here.
     std::string word();
     // Whether the next word is this one, in lower case, which is then passed.
     bool takes_word(std::string_view lower);
+    // The next letter, in lower case, passed; 0 if none stands there.
+    char letter();
+    // Whether the line goes on with this text, in lower case, white space passed, which is then passed.
+    bool takes_text(std::string_view lower);
+    // Up to the next quote, which is passed.
+    std::string_view until_quote();
     // Whether the next character, white space passed, is this one, which is then passed.
     bool takes(char c);
     void need(char c);

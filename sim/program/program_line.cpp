@@ -1,6 +1,6 @@
 // Character by character; numbers by std::from_chars, which knows no locale.
 
-#include "sim/program/krl_line.h"
+#include "sim/program/program_line.h"
 
 #include <algorithm>
 #include <charconv>
@@ -27,11 +27,6 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-bool is_krl_comment(std::string_view line) {
-    const std::size_t first = line.find_first_not_of(' ');
-    return first == std::string_view::npos || line[first] == ';';
-}
-
 LineRefused::LineRefused(const std::string& file_name, std::size_t line_number, const std::string& reason)
     : InputError(InputFault::mesh, "program " + file_name + ", line " + std::to_string(line_number) + ": " + reason,
                  "Make the job again; the program was not written by this version, or it was changed."),
@@ -43,11 +38,11 @@ void refuse_line(const std::string& file, std::size_t line, const std::string& w
     throw LineRefused(file, line, why);
 }
 
-void KrlLine::pass_space() {
+void ProgramLine::pass_space() {
     while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
 }
 
-std::string KrlLine::word() {
+std::string ProgramLine::word() {
     pass_space();
     if (!rest_.empty() && is_digit(rest_.front())) return {};
     const auto length = std::find_if_not(rest_.begin(), rest_.end(), is_of_word) - rest_.begin();
@@ -56,29 +51,54 @@ std::string KrlLine::word() {
     return found;
 }
 
-bool KrlLine::takes_word(std::string_view wanted) {
+bool ProgramLine::takes_word(std::string_view wanted) {
     const std::string_view before = rest_;
     if (word() == wanted) return true;
     rest_ = before;
     return false;
 }
 
-bool KrlLine::takes(char c) {
+char ProgramLine::letter() {
+    pass_space();
+    if (rest_.empty()) return 0;
+    const char c =
+        rest_.front() >= 'A' && rest_.front() <= 'Z' ? static_cast<char>(rest_.front() - 'A' + 'a') : rest_.front();
+    if (c < 'a' || c > 'z') return 0;
+    rest_.remove_prefix(1);
+    return c;
+}
+
+bool ProgramLine::takes_text(std::string_view lower) {
+    pass_space();
+    if (rest_.size() < lower.size() || lower_case(rest_.substr(0, lower.size())) != lower) return false;
+    rest_.remove_prefix(lower.size());
+    return true;
+}
+
+std::string_view ProgramLine::until_quote() {
+    const std::size_t end = rest_.find('"');
+    if (end == std::string_view::npos) refuse("a quote is missing");
+    const std::string_view text = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    return text;
+}
+
+bool ProgramLine::takes(char c) {
     pass_space();
     if (rest_.empty() || rest_.front() != c) return false;
     rest_.remove_prefix(1);
     return true;
 }
 
-void KrlLine::need(char c) {
+void ProgramLine::need(char c) {
     if (!takes(c)) refuse(std::string("\"") + c + "\" is missing");
 }
 
-void KrlLine::need_word(std::string_view wanted) {
+void ProgramLine::need_word(std::string_view wanted) {
     if (!takes_word(wanted)) refuse("\"" + std::string(wanted) + "\" is missing");
 }
 
-double KrlLine::number(double least, double largest) {
+double ProgramLine::number(double least, double largest) {
     pass_space();
     std::size_t length = 0;
     std::size_t digits = 0;
@@ -99,20 +119,20 @@ double KrlLine::number(double least, double largest) {
     return value;
 }
 
-std::uint32_t KrlLine::integer(std::uint32_t least, std::uint32_t largest) {
+std::uint32_t ProgramLine::integer(std::uint32_t least, std::uint32_t largest) {
     const double value = number(least, largest);
     if (value != std::floor(value)) refuse("a whole number is needed");
     return static_cast<std::uint32_t>(value);
 }
 
-std::uint32_t KrlLine::index(std::uint32_t least, std::uint32_t largest) {
+std::uint32_t ProgramLine::index(std::uint32_t least, std::uint32_t largest) {
     need('[');
     const std::uint32_t value = integer(least, largest);
     need(']');
     return value;
 }
 
-void KrlLine::need_end() {
+void ProgramLine::need_end() {
     pass_space();
     if (!rest_.empty()) refuse("\"" + std::string(rest_.substr(0, 20)) + "\" is not expected here");
 }

@@ -1,0 +1,23 @@
+// What robot programs in every language need of the signals of a cell file, and what the person at the controller is
+// asked.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "cam/cell/cell.h"
+
+namespace qchopper {
+
+// Throws InputError (config) if the cell file names no signal for spindle.on or spindle.at_speed, or none that switches
+// the spindle off.
+void check_signals(const CellMachine& machine);
+
+// "tool 1 (ball nose 20 mm) is in the spindle, 200.00 mm from the nose to the tip: check its length"
+std::string tool_question(const CuttingTool& tool);
+
+// "part 1 has ended, and this is the same block, not moved": before the part behind it, counted from 0.
+std::string part_question(std::size_t part);
+
+}  // namespace qchopper
