@@ -1,5 +1,5 @@
-// Lists, shows and checks cell files, and tells where blocks can stand. O(files), beside the picture of the reach and
-// the places of a block (cam/setup/placement/block_places.h).
+// Makes, lists, shows and checks cell files, and tells where blocks can stand. O(files), beside the picture of the
+// reach and the places of a block (cam/setup/placement/block_places.h).
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,15 @@
 #include "app/cli/arguments/option_values.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/pictures/arm_drawing.h"
 #include "app/pictures/reach_picture.h"
+#include "app/report/cell/arm_report.h"
 #include "app/report/cell/cell_report.h"
 #include "app/store/ready_cells.h"
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/units.h"
+#include "cam/cell/new_cell/new_cell.h"
 
 namespace qchopper {
 namespace {
@@ -61,7 +64,76 @@ Vec3 largest_stock_size(const Cell& cell) {
         ->size;
 }
 
+const Robot& robot_of(const fs::path& file, const Cell& cell) {
+    if (cell.machine && cell.machine->robot) return *cell.machine->robot;
+    throw InputError(InputFault::use, file.string() + " describes no robot",
+                     "name the cell file of a robot: qchopper cells list");
+}
+
+void check_ending(const fs::path& file, const std::string& ending) {
+    if (file.extension() == ending) return;
+    throw InputError(InputFault::use, file.string() + " does not end in " + ending, "name a " + ending + " file");
+}
+
+void write_drawing(const CellsShowArguments& arguments, const Cell& cell) {
+    check_ending(*arguments.drawing, ".svg");
+    write_file(*arguments.drawing, draw_arm(robot_of(arguments.file, cell)));
+}
+
+TaughtPoseCheck poses_checked(const CellsCheckArguments& arguments, const Cell& cell) {
+    const Robot& robot = robot_of(arguments.file, cell);
+    if (arguments.poses.size() < 2) {
+        throw InputError(InputFault::use, "one pose does not tell which value is wrong",
+                         "give two that differ in all six axes: --pose J1,...,J6=X,Y,Z,A,B,C --pose ...");
+    }
+    std::vector<TaughtPose> poses;
+    for (const std::string& text : arguments.poses) poses.push_back(*taught_pose_from(text));
+    return check_taught_poses(robot.geometry, poses);
+}
+
+// A cell file is edited by hand, so none is replaced.
+void refuse_existing(const fs::path& file) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(file, error))) return;
+    throw InputError(InputFault::create, file.string() + " is there already", "name another file with -o FILE");
+}
+
+// It stands between quotes in the file.
+void check_name(const std::string& name) {
+    constexpr std::size_t longest = 60;
+    const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 && byte != 0x7F && c != '"' && c != '\\';
+    });
+    if (is_plain && !name.empty() && name.size() <= longest) return;
+    throw InputError(InputFault::use, "\"" + name + "\" cannot be the name of a cell",
+                     "pass --name with 1 to 60 bytes, without quotes, backslashes and control characters");
+}
+
 }  // namespace
+
+int run(const CellsRobotsArguments& /*arguments*/, Terminal& terminal) {
+    terminal.set_unchanged("Nothing was changed.");
+    terminal.show(lines(known_arms()), document(known_arms()));
+    return exit_done;
+}
+
+int run(const CellsNewArguments& arguments, Terminal& terminal) {
+    const KnownArm& arm = known_arm(arguments.robot);
+    const fs::path file = arguments.out.value_or(std::string(arm.id) + ".toml");
+    check_ending(file, ".toml");
+    const fs::path drawing = fs::path(file).replace_extension(".svg");
+    for (const fs::path& made : {file, drawing}) refuse_existing(made);
+    const std::string name = arguments.name.value_or(file.stem().string());
+    check_name(name);
+    const std::string text = new_cell_text(arm, {name, arguments.id});
+    const Cell cell = parse_cell(text, file);
+    write_file(drawing, draw_arm(*cell.machine->robot));
+    write_file(file, text);
+    const MadeCell made{file.string(), drawing.string(), arm};
+    terminal.show(lines(made), document(made));
+    return exit_done;
+}
 
 int run(const CellsListArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("Nothing was changed.");
@@ -78,6 +150,7 @@ int run(const CellsShowArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, arguments.out->string() + " does not end in .png", "name a .png file");
     }
     const Cell cell = read_cell(arguments.file);
+    if (arguments.drawing) write_drawing(arguments, cell);
     ShownCell shown{arguments.file.string(), cell, std::nullopt};
     if (arguments.out) {
         const ReachMap map = reach_map(cell, pictured_tilts());
@@ -91,9 +164,10 @@ int run(const CellsShowArguments& arguments, Terminal& terminal) {
 int run(const CellsCheckArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("Nothing was changed.");
     const Cell cell = read_cell(arguments.file);
-    const CheckedCell checked{arguments.file.string(), cell, check_cell(cell)};
+    CheckedCell checked{arguments.file.string(), cell, check_cell(cell), std::nullopt};
+    if (!arguments.poses.empty()) checked.poses = poses_checked(arguments, cell);
     terminal.show(lines(checked), document(checked));
-    return checked.check.may_be_dispatched() ? exit_done : exit_demand_broken;
+    return checked.is_good() ? exit_done : exit_demand_broken;
 }
 
 int run(const CellsReachArguments& arguments, Terminal& terminal) {

@@ -25,6 +25,8 @@ int run(const ExportArguments& arguments, Terminal& terminal);
 int run(const CellsListArguments& arguments, Terminal& terminal);
 int run(const CellsShowArguments& arguments, Terminal& terminal);
 int run(const CellsCheckArguments& arguments, Terminal& terminal);
+int run(const CellsRobotsArguments& arguments, Terminal& terminal);
+int run(const CellsNewArguments& arguments, Terminal& terminal);
 int run(const CellsReachArguments& arguments, Terminal& terminal);
 int run(const SetupArguments& arguments, Terminal& terminal);
 int run(const WorkArguments& arguments, Terminal& terminal);

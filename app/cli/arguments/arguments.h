@@ -171,7 +171,17 @@ struct CellsListArguments {
 
 struct CellsShowArguments {
     std::filesystem::path file;
-    std::optional<std::filesystem::path> out;  // picture of the reach
+    std::optional<std::filesystem::path> out;      // picture of the reach
+    std::optional<std::filesystem::path> drawing;  // of the arm's lengths
+};
+
+struct CellsRobotsArguments {};
+
+struct CellsNewArguments {
+    std::string robot;
+    std::optional<std::string> name;           // of the cell; that of the file
+    int id = 1;                                // CELL_ID
+    std::optional<std::filesystem::path> out;  // ROBOT.toml
 };
 
 struct CellsReachArguments {
@@ -182,6 +192,7 @@ struct CellsReachArguments {
 
 struct CellsCheckArguments {
     std::filesystem::path file;
+    std::vector<std::string> poses;  // option_values.h reads them
 };
 
 struct SetupArguments : SetupRequest {
@@ -310,10 +321,11 @@ struct Arguments {
     std::optional<std::size_t> threads;
     std::variant<SampleArguments, FuseArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
-                 CellsCheckArguments, CellsReachArguments, SetupArguments, WorkArguments, SubmitArguments,
-                 GatherArguments, VerifyArguments, KeysArguments, DryRunArguments, CellSimArguments, DispatchArguments,
-                 JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
-                 CellCheckArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments, ConsoleMeshArguments,
+                 CellsRobotsArguments, CellsNewArguments, CellsCheckArguments, CellsReachArguments, SetupArguments,
+                 WorkArguments, SubmitArguments, GatherArguments, VerifyArguments, KeysArguments, DryRunArguments, CellSimArguments,
+                 DispatchArguments, JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
+                 CellCheckArguments, SchemaArguments, ServeArguments,
+                 ConsoleWorkerArguments, ConsoleMeshArguments,
                  ConsolePaintArguments>
         command;
 };

@@ -51,7 +51,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"guide", R"(  qchopper guide vertebra.qch)"},
     {"export", R"(  qchopper export vertebra.qch --format 3mf
   qchopper export vertebra.qch --format stl --pose setup --simplify 0.05 -o models)"},
-    {"cells", R"(  qchopper cells list
+    {"cells", R"(  qchopper cells new --robot kr210-r2700
+  qchopper cells list
   qchopper cells show cells/kr60-ha.toml -o reach.png
   qchopper cells check cells/kr60-ha.toml --json
   qchopper cells reach cells/kr60-ha.toml --tilt 30 --block 300,300,200)"},

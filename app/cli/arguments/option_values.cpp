@@ -106,6 +106,23 @@ std::optional<Vec3> lengths_from(const std::string& text) {
     return v;
 }
 
+std::optional<TaughtPose> taught_pose_from(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return std::nullopt;
+    std::array<double, 2 * axes_of_arm> values{};
+    for (std::size_t half = 0; half < 2; ++half) {
+        const std::vector<std::string> parts = split(half == 0 ? text.substr(0, equals) : text.substr(equals + 1));
+        if (parts.size() != axes_of_arm) return std::nullopt;
+        for (std::size_t i = 0; i < axes_of_arm; ++i) {
+            const std::optional<double> value = number_from(parts[i]);
+            if (!value || std::abs(*value) > 1e6) return std::nullopt;
+            values[half * axes_of_arm + i] = *value;
+        }
+    }
+    const auto& v = values;
+    return TaughtPose{{v[0], v[1], v[2], v[3], v[4], v[5]}, {v[6], v[7], v[8]}, {v[9], v[10], v[11]}};
+}
+
 std::optional<Vec3> print_volume_from(const std::string& text) {
     const std::optional<Vec3> v = lengths_from(text);
     return v && std::min({v->x, v->y, v->z}) >= 1 ? v : std::nullopt;

@@ -11,6 +11,7 @@
 #include "app/engine/discard_request.h"
 #include "app/engine/work_project.h"
 #include "app/store/decisions.h"
+#include "cam/cell/taught_poses.h"
 #include "devices/wire/modbus_tcp.h"
 #include "segment/io/formats/raw_mesh.h"
 #include "segment/mesh/plane.h"
@@ -33,7 +34,10 @@ std::optional<Plane> plane_from(const std::string& text);
 // "X,Y,Z": three lengths in mm, greater than zero.
 std::optional<Vec3> lengths_from(const std::string& text);
 
-// The same, each at least 1.
+// "J1,J2,J3,J4,J5,J6=X,Y,Z,A,B,C": joints in degrees, then what the controller shows for them, mm and degrees.
+std::optional<TaughtPose> taught_pose_from(const std::string& text);
+
+// The same as lengths_from, each at least 1.
 std::optional<Vec3> print_volume_from(const std::string& text);
 
 // "upright=+z,density=100,strength=0.5,load=weight": the load of the objective structure; any order, each at most once.

@@ -93,6 +93,8 @@ struct Parser {
     CellsShowArguments cells_show;
     CellsCheckArguments cells_check;
     CellsReachArguments cells_reach;
+    CellsRobotsArguments cells_robots;
+    CellsNewArguments cells_new;
     SetupArguments setup;
     WorkArguments work;
     SubmitArguments submit;
@@ -285,7 +287,8 @@ struct Parser {
     }
 
     void add_cells() {
-        CLI::App* c = app.add_subcommand("cells", "list, show and check cell files, and tell where a block can stand");
+        CLI::App* c =
+            app.add_subcommand("cells", "make, list, show and check cell files, and tell where a block can stand");
         c->require_subcommand(1);
         CLI::App* list = c->add_subcommand("list", "list the cell files of a folder");
         list->add_option("FOLDER", cells_list.folder, "where they lie (cells, or those that came with the program)");
@@ -296,13 +299,29 @@ struct Parser {
             ->required();
         show->add_option("-o,--out", cells_show.out,
                          "a picture to write, .png: what the tool tip reaches at tilts of 0, 30, 60 and 90 degrees");
+        show->add_option("--drawing", cells_show.drawing, "a drawing to write, .svg: the lengths a1 to c4 of the arm");
         add_common(show, common, [this] { common.command = cells_show; });
         CLI::App* check = c->add_subcommand(
             "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
         takes_cell_name(
             check->add_option("CELL", cells_check.file, "the cell file NAME.toml, or the name of a ready cell"))
             ->required();
+        check
+            ->add_option("--pose", cells_check.poses,
+                         "J1,...,J6=X,Y,Z,A,B,C: joints in degrees and what the controller shows for them, mm and "
+                         "degrees, of the flange in the robot's base; twice or more")
+            ->check(read_by(taught_pose_from, "not J1,J2,J3,J4,J5,J6=X,Y,Z,A,B,C in degrees and mm"));
         add_common(check, common, [this] { common.command = cells_check; });
+        CLI::App* robots = c->add_subcommand("robots", "list the robots of which cells new makes a cell file");
+        add_common(robots, common, [this] { common.command = cells_robots; });
+        CLI::App* made =
+            c->add_subcommand("new", "make a cell file for a robot, to be edited, and a drawing of its arm");
+        made->add_option("--robot", cells_new.robot, "one of cells robots, as kr210-r2700")->required();
+        made->add_option("--name", cells_new.name, "name of the cell (that of the file)");
+        made->add_option("--id", cells_new.id, "CELL_ID that the controller shows on the wire (1)")
+            ->check(number_between(1, 65535, "a number from 1 to 65535"));
+        made->add_option("-o,--out", cells_new.out, "the cell file to write, .toml (the robot's name)");
+        add_common(made, common, [this] { common.command = cells_new; });
         CLI::App* reach = c->add_subcommand(
             "reach",
             "tell where on the table a block can stand so that the machine comes to it at a tilt from all around");

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/report/cell/arm_report.h"
 #include "app/report/cell/cell_report.h"
 #include "app/report/cell/machine_reachability_report.h"
 #include "app/report/report_json.h"
@@ -47,6 +48,7 @@ Json robot_json(const Robot& robot) {
         {"name", robot.name},
         {"lengths", {{"a1", g.a1}, {"a2", g.a2}, {"b", g.b}, {"c1", g.c1}, {"c2", g.c2}, {"c3", g.c3}, {"c4", g.c4}}},
         {"axes", axes},
+        {"display_poses", pose_json(g)},
         {"payload_kg", robot.payload_kg},
         {"base", pose_json(robot.base_in_cell)},
         {"cable", cable},
@@ -211,13 +213,15 @@ Document document(const PlacesInCell& places) {
 }
 
 Document document(const CheckedCell& checked) {
-    return compose({{"schema", "qchopper-cell-check-1"},
-                    {"file", checked.file},
-                    {"version", version},
-                    {"uncertain", list_of(checked.check.uncertain, origin_json)},
-                    {"missing", checked.check.missing},
-                    {"against_dispatch", checked.check.against_dispatch},
-                    {"may_be_dispatched", checked.check.may_be_dispatched()}});
+    Json json = {{"schema", "qchopper-cell-check-1"},
+                 {"file", checked.file},
+                 {"version", version},
+                 {"uncertain", list_of(checked.check.uncertain, origin_json)},
+                 {"missing", checked.check.missing},
+                 {"against_dispatch", checked.check.against_dispatch},
+                 {"may_be_dispatched", checked.check.may_be_dispatched()}};
+    if (checked.poses) json["taught_poses"] = json_of(*checked.poses);
+    return compose(json);
 }
 
 }  // namespace qchopper

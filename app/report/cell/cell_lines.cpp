@@ -1,5 +1,6 @@
 // Text from a value: one function per table of the cell file.
 
+#include "app/report/cell/arm_report.h"
 #include "app/report/cell/cell_report.h"
 #include "app/report/columns.h"
 #include "base/text.h"
@@ -47,6 +48,7 @@ void add_robot(std::vector<std::string>& text, const Robot& robot) {
         rows.back().push_back(in_degrees(cable.min) + " to " + in_degrees(cable.max));
     }
     append(text, columns(rows));
+    append(text, pose_lines(g));
 }
 
 std::string table_line(const Cell& cell) {
@@ -199,6 +201,7 @@ std::vector<std::string> lines(const ShownCell& shown) {
 
 std::vector<std::string> lines(const CheckedCell& checked) {
     std::vector<std::string> text{checked.file + ": " + machine_of(checked.cell)};
+    if (checked.poses) append(text, lines(*checked.poses));
     append(text, origin_lines(checked.check.uncertain));
     for (const std::string& sentence : checked.check.missing) text.push_back("missing      " + sentence);
     for (const std::string& sentence : checked.check.against_dispatch) text.push_back("no dispatch  " + sentence);

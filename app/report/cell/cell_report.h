@@ -10,6 +10,7 @@
 #include "app/report/document.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
+#include "cam/cell/taught_poses.h"
 #include "cam/setup/placement/block_places.h"
 
 namespace qchopper {
@@ -38,6 +39,8 @@ struct CheckedCell {
     std::string file;
     const Cell& cell;  // outlives this object
     CellCheck check;
+    std::optional<TaughtPoseCheck> poses;  // where poses were given
+    bool is_good() const { return check.may_be_dispatched() && (!poses || poses->agrees); }
 };
 
 struct PlacesInCell {

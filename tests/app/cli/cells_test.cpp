@@ -146,5 +146,91 @@ TEST_F(Cells, ChecksWhatIsAssumed) {
     EXPECT_EQ(run({"cells", "check", "cells/foam-1.toml"}).code, 1);
 }
 
+TEST_F(Cells, MakesAFileForARobot) {
+    const program::Ended made = run({"cells", "new", "--robot", "KR 210 R2700", "-o", "mine.toml", "--json"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json document = json::parse(made.out);
+    EXPECT_EQ(document["schema"], "qchopper-new-cell-1");
+    EXPECT_EQ(document["arm"]["robot"], "kr210-r2700");
+    ASSERT_EQ(document["poses"].size(), 5U);
+    const std::string drawing = program::bytes_in(folder.path / "mine.svg");
+    EXPECT_EQ(drawing.substr(0, 5), "<svg ");
+    for (const char* length :
+         {"a1 = 350<", "a2 = 41<", "b = 0,", "c1 = 675<", "c2 = 1150<", "c3 = 1200<", "c4 = 215<"}) {
+        EXPECT_NE(drawing.find(length), std::string::npos) << length;
+    }
+    const program::Ended shown = run({"cells", "show", "mine.toml", "--drawing", "again.svg", "--json"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    EXPECT_EQ(program::bytes_in(folder.path / "again.svg"), drawing);
+    EXPECT_EQ(json::parse(shown.out)["machine"]["robot"]["display_poses"], document["poses"]);
+    const program::Ended again = run({"cells", "new", "--robot", "kr60-ha", "-o", "mine.toml"});
+    EXPECT_EQ(again.code, 73) << again.err;
+    EXPECT_NE(again.err.find("mine.toml is there already"), std::string::npos) << again.err;
+    for (const char* file : {"mine.toml", "mine.svg", "again.svg"}) fs::remove(folder.path / file);
+    const program::Ended plain = run({"cells", "new", "--robot", "m710ic-50"});
+    EXPECT_EQ(plain.code, 0) << plain.err;
+    EXPECT_NE(plain.out.find("J3 + J2 of the pendant"), std::string::npos) << plain.out;
+    for (const char* file : {"m710ic-50.toml", "m710ic-50.svg"}) EXPECT_TRUE(fs::remove(folder.path / file));
+}
+
+TEST_F(Cells, ListsTheRobotsAndRefusesWhatItCannotMove) {
+    const json robots = json::parse(run({"cells", "robots", "--json"}).out)["robots"];
+    EXPECT_GE(robots.size(), 25U);
+    EXPECT_NE(run({"cells", "robots"}).out.find("kr120r2500pro_macro.xacro"), std::string::npos);
+    const program::Ended parallel = run({"cells", "new", "--robot", "ur10e"});
+    EXPECT_EQ(parallel.code, 64);
+    EXPECT_NE(parallel.err.find("three of its axes are parallel"), std::string::npos) << parallel.err;
+    const program::Ended misspelt = run({"cells", "new", "--robot", "kr120-r2500"});
+    EXPECT_EQ(misspelt.code, 64);
+    EXPECT_NE(misspelt.err.find("kr120-r2500-pro"), std::string::npos) << misspelt.err;
+    EXPECT_EQ(run({"cells", "new", "--robot", "kr60-ha", "-o", "cell.txt"}).code, 64);
+    EXPECT_EQ(run({"cells", "new", "--robot", "kr60-ha", "--id", "0"}).code, 64);
+    EXPECT_EQ(run({"cells", "new", "--robot", "kr60-ha", "--name", "a \"quoted\" name"}).code, 64);
+    EXPECT_EQ(run({"cells", "new", "--robot", "kr60-ha", "-o", "nowhere/cell.toml"}).code, 73);
+}
+
+// "J1,...,J6=X,Y,Z,A,B,C" of a pose that the program itself shows.
+std::string pose_option(const json& pose) {
+    std::string text;
+    for (const json& joint : pose["joints_deg"]) text += (text.empty() ? "" : ",") + joint.dump();
+    text += "=";
+    for (const json& length : pose["position"]) text += length.dump() + ",";
+    return text + pose["abc_deg"][0].dump() + "," + pose["abc_deg"][1].dump() + "," + pose["abc_deg"][2].dump();
+}
+
+TEST_F(Cells, TaughtPosesTellWhichValueIsWrong) {
+    const std::string file = "cells/kr60-ha.toml";
+    const json poses = json::parse(run({"cells", "show", file, "--json"}).out)["machine"]["robot"]["display_poses"];
+    const program::Arguments check{"cells",  "check",
+                                   file,     "--json",
+                                   "--pose", pose_option(poses[2]),
+                                   "--pose", pose_option(poses[3]),
+                                   "--pose", pose_option(poses[4])};
+    const json right = json::parse(run(check).out)["taught_poses"];
+    EXPECT_EQ(right["agrees"], true);
+    const std::string bytes = program::bytes_in(folder.path / file);
+    for (const auto& [from, to, sentence] :
+         {std::tuple{"sign = [-1, 1,", "sign = [-1, -1,", "sign of axis 2 is -1 and should be 1"},
+          std::tuple{"[0.0, -90.0,", "[0.0, -1.570796,", "it stands in radians"},
+          std::tuple{"a2 = -145.0", "a2 = 145.0", "a2 is 145 and should be -145: its sign is wrong"},
+          std::tuple{"c2 = 850.0", "c2 = 0.85", "c2 is 0.85 and should be 850: it stands in metres"}}) {
+        std::string wrong = bytes;
+        wrong.replace(wrong.find(from), std::string(from).size(), to);
+        program::put(folder.path / file, wrong);
+        program::Arguments as_text = check;
+        std::erase(as_text, "--json");
+        const program::Ended told = run(as_text);
+        EXPECT_EQ(told.code, 1) << told.err;
+        EXPECT_NE(told.out.find(sentence), std::string::npos) << sentence << "\n" << told.out;
+    }
+    program::put(folder.path / file, bytes);
+    EXPECT_EQ(run({"cells", "check", file, "--pose", pose_option(poses[0])}).code, 64);
+    EXPECT_EQ(run({"cells", "check", file, "--pose", "1,2,3=4,5,6"}).code, 64);
+    EXPECT_EQ(run({"cells", "check", "cells/gantry-3axis.toml", "--pose", pose_option(poses[0]), "--pose",
+                   pose_option(poses[1])})
+                  .code,
+              64);
+}
+
 }  // namespace
 }  // namespace qchopper
