@@ -47,6 +47,7 @@ int run(const ServeArguments& arguments, Terminal& terminal);
 int run(const ConsoleWorkerArguments& arguments, Terminal& terminal);
 int run(const ConsoleMeshArguments& arguments, Terminal& terminal);
 int run(const ConsolePaintArguments& arguments, Terminal& terminal);
+int run(const ConsoleReplayArguments& arguments, Terminal& terminal);
 
 struct GatherAnswer;
 // For gather and submit: what prepare shows, or why it is not there yet.

@@ -18,6 +18,7 @@
 #include "app/console/console_folder.h"
 #include "app/console/http/http_server.h"
 #include "app/console/random_digits.h"
+#include "app/console/worker/shown_replay.h"
 #include "app/console/worker/strokes.h"
 #include "app/console/worker/worker.h"
 #include "app/dispatch/state_folder.h"
@@ -210,6 +211,13 @@ int run(const ConsolePaintArguments& arguments, Terminal& terminal) {
         if (!file.empty()) write_file(arguments.folder / name, file);
     }
     terminal.json(painted_document(painted.size()));
+    return exit_done;
+}
+
+int run(const ConsoleReplayArguments& arguments, Terminal& terminal) {
+    terminal.set_unchanged("No job was changed.");
+    const ReplayOrder order{without_slash(arguments.project), arguments.piece, arguments.part};
+    terminal.json(document(shown_replay(order, terminal.context())));
     return exit_done;
 }
 

@@ -41,10 +41,10 @@ struct WorkRow {
     const char* command;
     const char* option;
 };
-constexpr WorkRow work_rows[] = {{WorkKind::search, "segment", "--auto"}, {WorkKind::prepare, "prepare", ""},
-                                 {WorkKind::setups, "setup", ""},         {WorkKind::verify, "verify", ""},
-                                 {WorkKind::dry_run, "dry-run", ""},      {WorkKind::export_pieces, "export", ""},
-                                 {WorkKind::guide, "guide", ""}};
+constexpr WorkRow work_rows[] = {{WorkKind::search, "segment", "--auto"},  {WorkKind::prepare, "prepare", ""},
+                                 {WorkKind::setups, "setup", ""},          {WorkKind::verify, "verify", ""},
+                                 {WorkKind::replay, "console-replay", ""}, {WorkKind::dry_run, "dry-run", ""},
+                                 {WorkKind::export_pieces, "export", ""},  {WorkKind::guide, "guide", ""}};
 
 struct PaintedRow {
     const char* file;
@@ -118,6 +118,7 @@ std::optional<CommandWords> work_words(const std::filesystem::path& project, con
     CommandWords words{row->command, project.string()};
     if (*row->option != '\0') words.emplace_back(row->option);
     add_option(words, "--piece", body.piece);
+    if (body.part) words.insert(words.end(), {"--part", std::to_string(*body.part)});
     return printing_json(std::move(words));
 }
 

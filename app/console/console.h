@@ -30,6 +30,7 @@
 #include "app/console/worker/dispatch_plan.h"
 #include "app/console/worker/worker_process.h"
 #include "app/console/works.h"
+#include "app/display/display_store.h"
 
 namespace qchopper {
 
@@ -98,8 +99,8 @@ class Console {
     HttpAnswer begin(WorkOrder order);
     HttpAnswer job_file(const std::string& project, const std::string& job, const std::string& name) const;
     HttpAnswer output(const std::string& project, const std::string& name) const;
-    // A display mesh, or states of its faces, from the caches of projects and checks.
-    HttpAnswer display(const std::string& id, bool is_mesh) const;
+    // A display mesh, states of its faces or the way of a tool, from the caches of projects and checks.
+    HttpAnswer display(const std::string& id, DisplayKind kind) const;
     HttpAnswer make_ticket(const HttpRequest& request);
     HttpAnswer use_ticket(const std::string& ticket);
     HttpAnswer events(const HttpRequest& request);

@@ -12,6 +12,7 @@
 #include "app/console/worker/console_requests.h"
 #include "app/console/worker/resident_project.h"
 #include "app/console/worker/shown_pieces.h"
+#include "app/console/worker/shown_replay.h"
 #include "app/display/display_store.h"
 #include "base/error.h"
 #include "base/files/file.h"
@@ -131,11 +132,14 @@ HttpAnswer Console::output(const std::string& project, const std::string& name) 
     return file_answer(name, read_file(project_folder(project) / name, scan_limit));
 }
 
-HttpAnswer Console::display(const std::string& id, bool is_mesh) const {
+HttpAnswer Console::display(const std::string& id, DisplayKind kind) const {
     std::vector<fs::path> folders{options_.scratch};
-    for (const fs::path& project : projects_in(options_.folder)) folders.push_back(display_folder(project));
+    for (const fs::path& project : projects_in(options_.folder)) {
+        folders.push_back(display_folder(project));
+        folders.push_back(replay_folder(project));
+    }
     for (const fs::path& folder : folders) {
-        const std::optional<Bytes> packed = kept_display(folder, is_mesh ? DisplayKind::mesh : DisplayKind::states, id);
+        const std::optional<Bytes> packed = kept_display(folder, kind, id);
         if (!packed) continue;
         return {200,
                 {{"Content-Type", "application/octet-stream"},
@@ -143,7 +147,8 @@ HttpAnswer Console::display(const std::string& id, bool is_mesh) const {
                  {"Cache-Control", "private, max-age=31536000, immutable"}},
                 std::string(packed->begin(), packed->end())};
     }
-    return refusal(404, "there is no mesh " + id, "load the project again");
+    const char* const what = kind == DisplayKind::path ? "way of a tool" : "mesh";
+    return refusal(404, std::string("there is no ") + what + " " + id, "load the project again");
 }
 
 }  // namespace qchopper

@@ -36,6 +36,7 @@ constexpr std::array rows{
     RouteRow{stop_work, "DELETE", "/api/work/*", key, false, 0, "stops a work, which keeps what is saved"},
     RouteRow{mesh, "GET", "/api/meshes/*", key, false, 0, "a display mesh"},
     RouteRow{surface_states, "GET", "/api/meshes/*/states/*", key, false, 0, "a state for each of its faces"},
+    RouteRow{tool_way, "GET", "/api/paths/*", key, false, 0, "the way of the tool in a replay"},
     RouteRow{make_ticket, "POST", "/api/tickets", key, false, small_body, "an address for a new tab"},
     RouteRow{use_ticket, "GET", "/api/t/*", any, false, 0, "what the ticket was made for, once"},
     RouteRow{plan, "POST", "/api/projects/*/plans", moves, true, small_body, "jobs to be handed over, checked"},

@@ -27,6 +27,7 @@ enum class Route {
     stop_work,
     mesh,
     surface_states,
+    tool_way,
     job_file,
     output,
     make_ticket,

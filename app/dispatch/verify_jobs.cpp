@@ -12,6 +12,8 @@
 #include "app/engine/open_project.h"
 #include "app/jobs/hole_faults.h"
 #include "app/jobs/job_proof.h"
+#include "app/jobs/job_scene.h"
+#include "app/jobs/kept_deviation.h"
 #include "app/jobs/project_joints.h"
 #include "base/error.h"
 #include "base/files/file.h"
@@ -60,25 +62,12 @@ std::vector<ProofFinding> faults_against_cell(const ReadJob& job, const Cell& ce
     return faults;
 }
 
-std::map<std::string, std::string> texts_of(const ReadJob& job) {
-    std::map<std::string, std::string> texts;
-    for (const std::string& name : job.program->files) {
-        const Bytes& bytes = job.files.at(name);
-        texts[name] = {bytes.begin(), bytes.end()};
-    }
-    return texts;
-}
-
-void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell, JobVerdict& verdict,
-               const Context& context, Bytes* stock_left) {
-    const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
-    const std::map<std::string, std::string> texts = texts_of(job);
-    const auto stock = job.files.find("stock.bin");
-    const Bytes* before = stock != job.files.end() ? &stock->second : nullptr;
-    JobProof proof = prove(
-        {cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, before, holes_of(job.caps), job.half_spaces},
-        context);
-    if (stock_left != nullptr) *stock_left = std::move(proof.stock_left);
+void add_proof(const ReadJob& job, const std::string& job_file, const CellFile& cell, JobVerdict& verdict,
+               const Context& context, const ProofKeeping& keeping) {
+    const JobContents contents(job, job_file);
+    JobProof proof = prove(contents.input(cell.cell), context);
+    if (!keeping.cache.empty()) keep_deviation(keeping.cache, job.file_sha256, cell.sha256, proof);
+    if (keeping.stock_left != nullptr) *keeping.stock_left = std::move(proof.stock_left);
     verdict.figures = std::move(proof.figures);
     verdict.time = std::move(proof.time);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
@@ -202,14 +191,14 @@ CellFile read_cell_file(const fs::path& path) {
 }
 
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                     const std::string& program_version, const Context& context, Bytes* stock_left) {
-    if (stock_left != nullptr) stock_left->clear();
+                     const std::string& program_version, const Context& context, const ProofKeeping& keeping) {
+    if (keeping.stock_left != nullptr) keeping.stock_left->clear();
     JobVerdict verdict = without_findings(job, job_file, cell, program_version);
     verdict.findings = faults_against_cell(job, cell.cell);
     if (!job.program) {
         verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
     } else if (verdict.findings.empty()) {
-        add_proof(job, job_file, cell.cell, verdict, context, stock_left);
+        add_proof(job, job_file, cell, verdict, context, keeping);
     }
     shorten(verdict);
     verdict.is_positive = verdict.findings.empty();
@@ -251,7 +240,8 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
         const fs::path file = folder / "jobs" / job_file_name(job.piece, job.part);
         const ReadJob read = parse_job(job.file, file.string());
         Bytes stock_left;
-        JobVerdict verdict = judge_job(read, file.string(), cell, program_version, context, &stock_left);
+        JobVerdict verdict =
+            judge_job(read, file.string(), cell, program_version, context, {&stock_left, folder / "cache"});
         if (const auto of_part = fault_against_part_before(read, before)) {
             verdict.findings.insert(verdict.findings.begin(), *of_part);
         }

@@ -37,11 +37,18 @@ struct CellFile {
 // Throws what read_cell throws.
 CellFile read_cell_file(const std::filesystem::path& path);
 
+// What is kept of a proof beside the verdict.
+struct ProofKeeping {
+    // If it is not nullptr, it becomes what the next part has to carry: empty after the last part, and where the
+    // program cannot be replayed.
+    Bytes* stock_left = nullptr;
+    std::filesystem::path cache = {};  // for kept_deviation.h; empty: none
+};
+
 // The verdict on a job that parse_job took. Faults are findings. Throws Cancelled. A part but the first is replayed
-// from the stock that its job carries; `stock_left`, if it is not nullptr, becomes what the next part has to carry:
-// empty after the last part, and where the program cannot be replayed.
+// from the stock that its job carries.
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                     const std::string& program_version, const Context& context, Bytes* stock_left = nullptr);
+                     const std::string& program_version, const Context& context, const ProofKeeping& keeping = {});
 
 // One job file. Without a cell file, that of the project in whose folder "jobs" it lies. Throws what read_job and
 // parse_job throw, what read_cell throws, and InputError (use) without a cell file.

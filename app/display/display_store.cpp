@@ -2,6 +2,8 @@
 
 #include "app/display/display_store.h"
 
+#include <array>
+
 #include "base/hex.h"
 
 namespace qchopper {
@@ -12,7 +14,8 @@ namespace fs = std::filesystem;
 constexpr const char* made_ending = ".display";
 
 const char* ending_of(DisplayKind kind) {
-    return kind == DisplayKind::mesh ? ".mesh" : ".states";
+    constexpr std::array endings{".mesh", ".states", ".path"};  // in the order of DisplayKind
+    return endings[static_cast<std::size_t>(kind)];
 }
 
 std::optional<DisplayFile> found_in(const fs::path& folder, DisplayKind kind, const fs::path& made) {
@@ -59,8 +62,9 @@ std::optional<Bytes> kept_display(const fs::path& folder, DisplayKind kind, cons
 
 void remove_oldest_display(const fs::path& folder, std::size_t count) {
     if (folder.empty()) return;
-    for (const char* ending : {made_ending, ending_of(DisplayKind::mesh), ending_of(DisplayKind::states)}) {
-        remove_oldest(folder, ending, count);
+    remove_oldest(folder, made_ending, count);
+    for (const DisplayKind kind : {DisplayKind::mesh, DisplayKind::states, DisplayKind::path}) {
+        remove_oldest(folder, ending_of(kind), count);
     }
 }
 

@@ -102,12 +102,21 @@ DisplayFile made_of_piece(const TriangleMesh& piece, const DisplayGrid& grid, st
     return packed(display_mesh(fewer, grid), report.deviation());
 }
 
-std::vector<std::uint8_t> states_on(const DisplayMesh& shown, const TriangleMesh& piece, const MilledPiece& milled,
-                                    const Context& context) {
-    const std::vector<std::uint8_t> exact = surface_states(piece, milled);
-    std::vector<std::uint8_t> states;
-    for (const std::uint32_t triangle : exact_faces(shown, piece, context)) states.push_back(exact[triangle]);
-    return states;
+// For each face of a mesh the state of the triangle that it shows.
+DisplayFile states_on(const DisplayFile& mesh, const TriangleMesh& piece, const std::vector<std::uint8_t>& exact,
+                      const fs::path& cache, const Context& context) {
+    const auto make = [&] {
+        const DisplayMesh shown = decode_display_mesh(gunzip(mesh.packed, "display mesh"));
+        std::vector<std::uint8_t> states;
+        for (const std::uint32_t triangle : exact_faces(shown, piece, context)) states.push_back(exact[triangle]);
+        const Bytes encoded = encode_display_states({mesh.id, std::move(states)});
+        return DisplayFile{display_id(encoded), 0, gzip(encoded)};
+    };
+    if (cache.empty()) return make();
+    CacheWriter key = key_of("states", piece);
+    key.put(mesh.id);
+    key.put_all(exact);
+    return kept_or_made(cache, DisplayKind::states, key, make);
 }
 
 }  // namespace
@@ -153,18 +162,27 @@ std::vector<DisplayFile> display_pieces(std::span<const Piece> pieces, const Box
 DisplayFile display_states(const DisplayFile& mesh, const TriangleMesh& piece, const MilledPiece& milled,
                            const fs::path& cache, const Context& context) {
     const StageTimer stage(context, "states made ready for display");
-    const auto make = [&] {
-        const DisplayMesh shown = decode_display_mesh(gunzip(mesh.packed, "display mesh"));
-        const Bytes encoded = encode_display_states({mesh.id, states_on(shown, piece, milled, context)});
-        return DisplayFile{display_id(encoded), 0, gzip(encoded)};
-    };
-    if (cache.empty()) return make();
-    CacheWriter key = key_of("states", piece);
-    key.put(mesh.id);
-    key.put_all(surface_states(piece, milled));
-    DisplayFile file = kept_or_made(cache, DisplayKind::states, key, make);
+    DisplayFile file = states_on(mesh, piece, surface_states(piece, milled), cache, context);
     remove_oldest_display(cache, kept_files);
     return file;
+}
+
+DisplayFile display_surface(const TriangleMesh& surface, double deviation_mm, const DisplayGrid& grid,
+                            const CacheWriter& key, const fs::path& cache) {
+    return kept_or_made(cache, DisplayKind::mesh, key,
+                        [&] { return packed(display_mesh(surface, grid), deviation_mm); });
+}
+
+ClassedDisplay display_classes(const TriangleMesh& piece, const std::vector<std::uint8_t>& classes,
+                               const DisplayGrid& grid, const fs::path& cache, const Context& context) {
+    CacheWriter key = key_of("classed", piece);
+    key.put(grid.origin);
+    key.put(grid.step);
+    ClassedDisplay shown;
+    shown.mesh =
+        kept_or_made(cache, DisplayKind::mesh, key, [&] { return made_of_piece(piece, grid, display_faces, context); });
+    shown.classes = states_on(shown.mesh, piece, classes, cache, context);
+    return shown;
 }
 
 }  // namespace qchopper

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
+#include "app/display/display_mesh.h"
 #include "app/display/display_store.h"
 #include "app/pictures/unreachable_picture.h"
 #include "base/box.h"
@@ -37,5 +39,19 @@ std::vector<DisplayFile> display_pieces(std::span<const Piece> pieces, const Box
 // For each face of `mesh`, which was made of `piece`, the state of the triangle that it shows (exact_faces.h).
 DisplayFile display_states(const DisplayFile& mesh, const TriangleMesh& piece, const MilledPiece& milled,
                            const std::filesystem::path& cache, const Context& context = {});
+
+// A surface that is drawn as it is, and is so far from the one that it shows at most; of `key` it follows.
+DisplayFile display_surface(const TriangleMesh& surface, double deviation_mm, const DisplayGrid& grid,
+                            const CacheWriter& key, const std::filesystem::path& cache);
+
+// Of a piece alone on a grid, simplified if it has more than display_faces; and for each of its faces the class of the
+// triangle that it shows. Precondition: classes are at most base_state, one per triangle.
+struct ClassedDisplay {
+    DisplayFile mesh;
+    DisplayFile classes;
+};
+ClassedDisplay display_classes(const TriangleMesh& piece, const std::vector<std::uint8_t>& classes,
+                               const DisplayGrid& grid, const std::filesystem::path& cache,
+                               const Context& context = {});
 
 }  // namespace qchopper

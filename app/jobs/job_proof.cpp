@@ -12,15 +12,9 @@
 #include "base/text.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/job_program.h"
-#include "cam/setup/block_placement.h"
-#include "cam/setup/drill_orientation.h"
-#include "segment/io/read_mesh.h"
 #include "sim/program/chunk_summary.h"
 #include "sim/program/program_line.h"
-#include "sim/replay/flush_check.h"
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/reach/reachable.h"
-#include "sim/replay/read_program.h"
 #include "sim/replay/replay.h"
 
 namespace qchopper {
@@ -37,15 +31,9 @@ void add(JobProof& proof, const std::string& kind, const std::string& file, std:
     }
 }
 
-std::string without_ending(const std::string& file) {
-    return file.substr(0, file.rfind('.'));
-}
-
 std::optional<ParsedProgram> read(const ProofInput& input, JobProof& proof) {
-    std::vector<ProgramFile> files;
-    for (const std::string& name : input.program.files) files.push_back({name, input.texts.at(name)});
     try {
-        return read_program(input.program.dialect, files, without_ending(input.program.entry), input.cell);
+        return program_read_back(input);
     } catch (const LineRefused& refused) {
         add(proof, "not_readable", refused.file, refused.line, refused.why);
         return std::nullopt;
@@ -81,40 +69,6 @@ void compare_chunks(const ProofInput& input, const ParsedProgram& program, JobPr
     }
 }
 
-// A point of its plane, and the normal out of the half-space.
-std::pair<Vec3, Vec3> border_of(const HalfSpace& half_space, const Pose& pose) {
-    const Plane& plane = half_space.plane;
-    return {apply(pose, plane.offset * plane.normal), rotate(pose, -half_space.up())};
-}
-
-// The caps of the piece but its base in setup coordinates, and which face of the block each is said to be.
-std::vector<SceneCap> caps_of(const ProofInput& input) {
-    std::vector<SceneCap> caps;
-    const Setup& setup = input.setup;
-    for (const HalfSpace& half_space : input.half_spaces) {
-        if (half_space.cut == setup.base) continue;
-        const auto [point, outward] = border_of(half_space, setup.piece_in_setup);
-        SceneCap cap{half_space.cut, point, outward, std::nullopt};
-        for (const FlushCap& flush : setup.flush_caps) {
-            if (flush.cut == half_space.cut) cap.face = static_cast<std::size_t>(flush.face);
-        }
-        caps.push_back(cap);
-    }
-    return caps;
-}
-
-// What is not milled: the plane of the base, and caps that are said to be faces of the block.
-std::vector<bool> unmilled_of(const Setup& setup, const std::vector<SceneCap>& caps, const TriangleMesh& mesh) {
-    std::vector<bool> is_unmilled(mesh.triangles.size(), false);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        is_unmilled[t] = setup.base && is_in_plane(mesh, t, {}, {0, 0, -1});
-        for (const SceneCap& cap : caps) {
-            if (cap.face && is_in_plane(mesh, t, cap.point, cap.outward)) is_unmilled[t] = true;
-        }
-    }
-    return is_unmilled;
-}
-
 // Finishing is held against the cell file's scallop height; a program that claims another one was made for other
 // tolerances.
 void check_scallop(const ProofInput& input, JobProof& proof) {
@@ -123,45 +77,6 @@ void check_scallop(const ProofInput& input, JobProof& proof) {
     add(proof, "other_scallop", manifest, 0,
         "scallop_mm is " + significant(input.program.scallop_mm, 6) + ", expected: " + significant(expected, 6) +
             " of the cell file");
-}
-
-ReplayScene scene_of(const ProofInput& input) {
-    ReplayScene scene;
-    scene.cell = &input.cell;
-    const Setup setup = with_drill_orientations(input.setup, input.program.drilling);
-    const std::size_t own = input.setup.access.orientations.size();
-    for (std::size_t d = 0; d < setup.access.orientations.size(); ++d) {
-        const Vec3 tool_axis = normalized(setup.tool_axis(d));
-        const Pose frame = d < own ? input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)]
-                                   : setup_in_cell(input.cell, setup.spoil, setup.placement, d);
-        scene.orientations.push_back({tool_axis, setup.placement.table_angle(d), frame});
-    }
-    for (const JobChunk& chunk : input.program.chunks) {
-        scene.chunks.push_back({without_ending(chunk.file), chunk.tool, chunk.orientation});
-    }
-    scene.block = setup.block_box();
-    scene.spoil = setup.spoil;
-    scene.target = &input.mesh;
-    scene.caps = caps_of(input);
-    scene.flush_tolerance = input.cell.saw.flush_tolerance;
-    scene.is_unmilled = unmilled_of(setup, scene.caps, input.mesh);
-    if (input.cell.machine) scene.scallop = input.cell.machine->program.scallop;
-    const std::vector<std::size_t>& drilled = input.program.holes;
-    for (const JobHole& hole : input.holes) {
-        const bool is_due = std::binary_search(drilled.begin(), drilled.end(), hole.number);
-        scene.holes.push_back({hole.number, hole.point, hole.axis, hole.diameter, hole.depth, hole.by_robot, is_due});
-    }
-    scene.is_last = input.program.part.number == input.program.part.count;
-    scene.drilling = own;
-    scene.tools = setup.tools;
-    return scene;
-}
-
-// What the part before left; nothing for the first. Throws InputError (mesh).
-std::optional<StockRecord> stock_before(const ProofInput& input) {
-    if (input.program.part.number == 1) return std::nullopt;
-    if (input.stock == nullptr) throw InputError(InputFault::mesh, "what the part before leaves is not known");
-    return read_stock(*input.stock, "stock.bin");
 }
 
 // Of what must be milled and of what is not: none before the last part, when the piece is not there yet.
@@ -299,12 +214,6 @@ JobProof prove(const ProofInput& input, const Context& context) {
         add(proof, "not_replayable", "", 0, error.what());
     }
     return proof;
-}
-
-TriangleMesh job_mesh(const Bytes& piece_stl, const std::string& source) {
-    ReadOptions options;
-    options.weld = true;
-    return parse_mesh(piece_stl, source, {}, options).mesh;
 }
 
 }  // namespace qchopper

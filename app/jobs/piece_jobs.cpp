@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "app/jobs/job_verdict.h"
+#include "app/jobs/kept_deviation.h"
 #include "app/jobs/kept_programs.h"
 #include "app/jobs/kept_toolpaths.h"
 #include "app/jobs/ordered_job.h"
@@ -158,6 +159,7 @@ void write_one(const JobInput& input, const JobProof* proof, const JobOrders& or
     if (proof == nullptr) return;
     JobVerdict verdict = verdict_of(*proof, orders, input.piece.name, file, made.written.back().sha256);
     write_verdict(file, verdict);
+    keep_deviation(orders.folder / "cache", verdict.job_sha256, orders.cell_sha256, *proof);
     made.report.verdicts.push_back(std::move(verdict));
     made.report.time_s += proof->time_s;
     made.report.length_mm += proof->length_mm;
@@ -463,6 +465,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     }
     project.jobs = std::move(all);  // no other job stays recorded
     remove_oldest(folder / "cache", programs_ending, kept_per_piece * count);
+    remove_oldest(folder / "cache", deviations_ending, kept_per_piece * count);
     remove_oldest(folder / "cache", toolpaths_ending, 0);
     tell_kept(reports, context);
     setups.set_places(recorded_places(project));

@@ -48,7 +48,9 @@ std::uint8_t index_of(float value) {
 constexpr std::uint8_t given_up_index = ranges.size();
 constexpr Rgb given_up_colour{255, 205, 30};
 
-std::vector<std::uint8_t> colours_of(std::span<const float> deviation, const std::vector<bool>& is_given_up) {
+}  // namespace
+
+std::vector<std::uint8_t> deviation_classes(std::span<const float> deviation, const std::vector<bool>& is_given_up) {
     std::vector<std::uint8_t> colours;
     colours.reserve(deviation.size());
     for (const float value : deviation) colours.push_back(index_of(value));
@@ -58,8 +60,6 @@ std::vector<std::uint8_t> colours_of(std::span<const float> deviation, const std
     return colours;
 }
 
-}  // namespace
-
 Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation,
                         const std::vector<bool>& is_given_up) {
     assert(deviation.size() == mesh.triangles.size() && !mesh.triangles.empty());
@@ -67,7 +67,7 @@ Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviati
     std::array<Rgb, ranges.size() + 1> palette;
     for (std::size_t i = 0; i < ranges.size(); ++i) palette[i] = ranges[i].colour;
     palette[given_up_index] = given_up_colour;
-    const std::vector<std::uint8_t> colours = colours_of(deviation, is_given_up);
+    const std::vector<std::uint8_t> colours = deviation_classes(deviation, is_given_up);
     ColouredMesh coloured{&mesh, bone_colour, {}};
     coloured.palette = palette;
     coloured.colour_of = colours;

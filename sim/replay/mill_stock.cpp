@@ -260,24 +260,24 @@ std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const 
 }
 
 MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const ReplayScene& scene, bool is_worst,
-                          FindingLog& log, const Context& context) {
+                          FindingLog& log, const Context& context, const MillingObserver& on_part) {
     StockMilling milling(stock_model, scene, path.lines.size(), log);
     std::size_t done = 0;
     for (const PathPart& part : path.order) {
-        if (done++ % 256 == 0) {
+        if (done % 256 == 0) {
             context.check_cancelled();
-            context.progress("moves carved", done - 1, path.order.size());
+            context.progress("moves carved", done, path.order.size());
         }
-        if (!part.is_line) {
-            milling.take_sweep(path.sweeps[part.index]);
-            continue;
-        }
-        const TipLine& line = path.lines[part.index];
-        if (is_worst) {
-            milling.take_line(line, part.index, rounded_way(path.before(part.index), line, path.after(part.index)));
+        if (part.is_line) {
+            const TipLine& line = path.lines[part.index];
+            milling.take_line(line, part.index,
+                              is_worst ? rounded_way(path.before(part.index), line, path.after(part.index))
+                                       : std::vector<Vec3>{line.from, line.to});
         } else {
-            milling.take_line(line, part.index, {line.from, line.to});
+            milling.take_sweep(path.sweeps[part.index]);
         }
+        ++done;
+        if (on_part) on_part(done);
     }
     context.progress("moves carved", done, path.order.size());
     return milling.finish();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "base/context.h"
@@ -39,9 +40,12 @@ inline bool is_rapid(const TipLine& line, const CuttingTool& tool) {
     return line.feed > 1.001 * tool.feed_max_mm_per_s;
 }
 
+// Is told after each part of ToolPath::order how many are done: the stock is as they leave it.
+using MillingObserver = std::function<void(std::size_t done)>;
+
 // Is `is_worst` true, corners that may be rounded are: the foam outside of the parabola stays. Throws Cancelled.
 MillingFigures mill_stock(StockModel& stock_model, const ToolPath& path, const ReplayScene& scene, bool is_worst,
-                          FindingLog& log, const Context& context);
+                          FindingLog& log, const Context& context, const MillingObserver& on_part = {});
 
 // The way of a line with the corner at its end: from where it leaves the corner before to where the next line takes
 // over. `before` and `after` are its neighbours or nullptr.

@@ -60,9 +60,8 @@ struct ReplayReport {
     static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 };
 
-// Throws InputError (use) if the scene is not one: no cell with a robot, no direction, a chunk with a tool or a
-// direction that is not there, a block or a target without size; InputError (mesh) if the stock before is of another
-// block or other directions. Throws Cancelled.
+// Throws what check_scene throws, InputError (mesh) if the stock before is of another block or other directions, and
+// Cancelled.
 ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, const ReplayOptions& options = {},
                     const Context& context = {});
 

@@ -78,4 +78,8 @@ struct ReplayScene {
     double floor_z() const { return -spoil + 2; }
 };
 
+// Throws InputError (use) if the scene is not one: no cell with a robot, no direction, a chunk with a tool or a
+// direction that is not there, a block or a target without size.
+void check_scene(const ReplayScene& scene);
+
 }  // namespace qchopper

@@ -47,9 +47,9 @@ std::vector<MachineTime> account_of(const ToolPath& path, const PathTime& time, 
         add_line(account[line.use], line, machine.tools[line.tool], time.lines[i], milling.lines[i], limits.cycle_s);
     }
     for (const JointSweep& sweep : path.sweeps) account[sweep.use].joint_move_s += sweep.seconds;
-    for (const std::uint32_t use : path.tool_changes) {
-        account[use].tool_change_s += limits.tool_change_s;
-        ++account[use].tool_changes;
+    for (const ToolChange& change : path.tool_changes) {
+        account[change.use].tool_change_s += limits.tool_change_s;
+        ++account[change.use].tool_changes;
     }
     return account;
 }

@@ -77,12 +77,17 @@ struct PathPart {
     std::size_t index = 0;
 };
 
+struct ToolChange {
+    std::uint32_t use = 0;   // index in ToolPath::uses, of the first chunk with the tool
+    std::size_t before = 0;  // index in ToolPath::order of the part that follows
+};
+
 struct ToolPath {
     std::vector<TipLine> lines;
     std::vector<JointSweep> sweeps;
     std::vector<PathPart> order;
-    std::vector<ToolUse> uses;                // each once, in the order of first use; at least one
-    std::vector<std::uint32_t> tool_changes;  // index in `uses` of the first chunk with the tool, for each change
+    std::vector<ToolUse> uses;  // each once, in the order of first use; at least one
+    std::vector<ToolChange> tool_changes;
 
     // The line that ends where line i begins, and the one that begins where it ends; nullptr: there is none.
     const TipLine* before(std::size_t i) const { return i > 0 && lines[i].follows_line ? &lines[i - 1] : nullptr; }

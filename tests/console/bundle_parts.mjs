@@ -12,6 +12,7 @@ const names = [
   "geometry/ranking",
   "geometry/section",
   "geometry/tool_arrows",
+  "geometry/tool_way",
   "link/event_stream",
   "link/state",
   "pages/check/names",

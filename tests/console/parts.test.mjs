@@ -275,3 +275,68 @@ test("a name is taken if the server takes it, and else a sentence says what is w
   assert.equal(page.nameProblem("a", ["a.qch"]), "A project of this name is there already.");
   assert.equal(page.projectName(" Scha\u0308del 3 "), "Schädel 3");
 });
+
+// QCP1 as app/display/display_path.cpp writes it.
+function encodeWay({ points, ms, lines, kinds }, step = 0.5) {
+  const codes = [];
+  const put = (value) => {
+    for (; value >= 128; value = Math.floor(value / 128)) codes.push((value % 128) + 128);
+    codes.push(value);
+  };
+  ms.forEach((value, i) => put(value - (ms[i - 1] ?? 0)));
+  lines.forEach((value, i) => {
+    const difference = value - (lines[i - 1] ?? 0);
+    put(difference >= 0 ? 2 * difference : -2 * difference - 1);
+  });
+  const n = points.length;
+  const bytes = new Uint8Array(44 + 7 * n + codes.length);
+  const view = new DataView(bytes.buffer);
+  [..."QCP1"].forEach((letter, i) => (bytes[i] = letter.charCodeAt(0)));
+  view.setUint32(4, n, true);
+  view.setUint32(8, codes.length, true);
+  [0, 0, 0, step].forEach((value, i) => view.setFloat64(12 + 8 * i, value, true));
+  for (let axis = 0; axis < 3; ++axis)
+    points.forEach((point, i) => {
+      const difference = point[axis] - (points[i - 1]?.[axis] ?? 0);
+      const code = difference >= 0 ? 2 * difference : -2 * difference - 1;
+      bytes[44 + 2 * axis * n + i] = code & 255;
+      bytes[44 + 2 * axis * n + n + i] = code >> 8;
+    });
+  bytes.set(kinds, 44 + 6 * n);
+  bytes.set(codes, 44 + 7 * n);
+  return bytes.buffer;
+}
+
+const way = {
+  points: [[0, 0, 0], [200, 0, 0], [200, 16383, 40], [10, 16383, 40]],
+  ms: [0, 1000, 1000, 701000],
+  lines: [12, 13, 2_000_000, 4],
+  kinds: [0, 2, 4, 1],
+};
+
+test("the way of a tool is decoded to what was encoded, and tells where the tip is when", () => {
+  const decoded = page.decodeWay(encodeWay(way));
+  assert.deepEqual([...decoded.ms], way.ms);
+  assert.deepEqual([...decoded.lines], way.lines);
+  assert.deepEqual([...decoded.kinds], way.kinds);
+  assert.deepEqual([...decoded.positions], way.points.flat().map((x) => 0.5 * x));
+  assert.equal(page.pointAt(decoded, 0), 0);
+  assert.equal(page.pointAt(decoded, 1), 1);
+  assert.equal(page.pointAt(decoded, 1000), 1);
+  assert.equal(page.pointAt(decoded, 1001), 3);
+  assert.equal(page.pointAt(decoded, 1e9), 3);
+  assert.deepEqual(page.tipAt(decoded, 1, 250), [25, 0, 0]);
+  assert.deepEqual(page.tipAt(decoded, 2, 1000), [100, 8191.5, 20], "a line that takes no time is passed");
+  assert.deepEqual([...page.linesTo(decoded, 1, 1, [25, 0, 0])], [0, 0, 0, 25, 0, 0]);
+  assert.equal(page.linesTo(decoded, 0, 3, [5, 0, 0]).length, 18);
+});
+
+test("a way that is cut off, longer or of unknown kinds is refused", () => {
+  const buffer = encodeWay(way);
+  for (let length = 0; length < buffer.byteLength; ++length)
+    assert.throws(() => page.decodeWay(buffer.slice(0, length)), /damaged/, `of ${length} bytes`);
+  const longer = new Uint8Array(buffer.byteLength + 1);
+  longer.set(new Uint8Array(buffer));
+  assert.throws(() => page.decodeWay(longer.buffer), /damaged/);
+  assert.throws(() => page.decodeWay(encodeWay({ ...way, kinds: [0, 2, 5, 1] })), /kind/);
+});

@@ -309,6 +309,13 @@ struct ConsolePaintArguments {
     std::optional<std::string> units;
 };
 
+// A job as serve replays it.
+struct ConsoleReplayArguments {
+    std::filesystem::path project;
+    std::string piece;
+    std::uint16_t part = 1;
+};
+
 struct SchemaArguments {
     std::string document;  // manifest, envelope, ticket, verdict, project
 };
@@ -326,7 +333,7 @@ struct Arguments {
                  DispatchArguments, JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
                  CellCheckArguments, SchemaArguments, ServeArguments,
                  ConsoleWorkerArguments, ConsoleMeshArguments,
-                 ConsolePaintArguments>
+                 ConsolePaintArguments, ConsoleReplayArguments>
         command;
 };
 

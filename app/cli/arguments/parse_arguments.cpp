@@ -115,6 +115,7 @@ struct Parser {
     ConsoleWorkerArguments console_worker;
     ConsoleMeshArguments console_mesh;
     ConsolePaintArguments console_paint;
+    ConsoleReplayArguments console_replay;
 
     Parser() {
         app.footer(examples_of(""));
@@ -284,6 +285,11 @@ struct Parser {
         c->add_option("FOLDER", console_paint.folder)->required();
         c->add_option("--units", console_paint.units);
         add_common(c, common, [this] { common.command = console_paint; });
+        c = app.add_subcommand("console-replay", "replay a job for serve")->group("");
+        c->add_option("PROJECT", console_replay.project)->required();
+        c->add_option("--piece", console_replay.piece)->required();
+        c->add_option("--part", console_replay.part);
+        add_common(c, common, [this] { common.command = console_replay; });
     }
 
     void add_cells() {

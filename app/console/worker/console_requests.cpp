@@ -138,6 +138,7 @@ template <class V, Of<WorkBody> T>
 void fields(V& v, T& work) {
     v("kind", work.kind);
     v.maybe("piece", work.piece);
+    v.maybe("part", work.part);
 }
 
 template <class V, Of<PlanOrder> T>

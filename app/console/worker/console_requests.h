@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,16 +103,17 @@ struct NewProjectBody {
     std::vector<Stroke> strokes;         // in the order in which they were painted
 };
 
-enum class WorkKind { check, repair, project, search, prepare, setups, verify, dry_run, export_pieces, guide };
+enum class WorkKind { check, repair, project, search, prepare, setups, verify, replay, dry_run, export_pieces, guide };
 
 constexpr auto names_of(WorkKind) {
-    return EnumNames<WorkKind, 10>{{{WorkKind::check, "check"},
+    return EnumNames<WorkKind, 11>{{{WorkKind::check, "check"},
                                     {WorkKind::repair, "repair"},
                                     {WorkKind::project, "project"},
                                     {WorkKind::search, "search"},
                                     {WorkKind::prepare, "prepare"},
                                     {WorkKind::setups, "setups"},
                                     {WorkKind::verify, "verify"},
+                                    {WorkKind::replay, "replay"},
                                     {WorkKind::dry_run, "dry_run"},
                                     {WorkKind::export_pieces, "export"},
                                     {WorkKind::guide, "guide"}}};
@@ -119,7 +121,8 @@ constexpr auto names_of(WorkKind) {
 
 struct WorkBody {
     WorkKind kind = WorkKind::prepare;
-    std::optional<std::string> piece;  // of verify
+    std::optional<std::string> piece;   // of verify, replay
+    std::optional<std::uint16_t> part;  // of the piece's program, of replay
 };
 
 struct TicketBody {

@@ -72,7 +72,7 @@ void ProgramWalk::use_tool(const std::string& operation) {
     const auto found = std::find(path_.uses.begin(), path_.uses.end(), use);
     use_ = static_cast<std::uint32_t>(found - path_.uses.begin());
     if (found == path_.uses.end()) path_.uses.push_back(use);
-    if (std::exchange(is_changed_, false)) path_.tool_changes.push_back(use_);
+    if (std::exchange(is_changed_, false)) path_.tool_changes.push_back({use_, path_.order.size()});
 }
 
 // A person is told which tool it is, and how long it must be.

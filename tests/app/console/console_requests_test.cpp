@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "app/console/command_words.h"
 #include "base/error.h"
 
 namespace qchopper {
@@ -206,6 +207,11 @@ TEST(ConsoleRequests, EveryValueIsRead) {
     EXPECT_TRUE(check.deep);
     EXPECT_EQ(read_work(readers()[3].good).kind, WorkKind::verify);
     EXPECT_EQ(read_work(readers()[3].good).piece, "A");
+    const WorkBody replay = read_work(R"({"kind":"replay","piece":"B","part":2})");
+    EXPECT_EQ(replay.part, 2);
+    const CommandWords expected{"console-replay", "p.qch",      "--piece", "B", "--part", "2",
+                                "--json",         "--progress", "json"};
+    EXPECT_EQ(work_words("p.qch", replay), expected);
     const DecisionBody cut = read_decision(readers()[5].good);
     EXPECT_EQ(cut.cut, (CutOrder{"A", {0.6, 0, -0.8, 12.5}, 3}));
     EXPECT_EQ(read_decision(readers()[7].good).discard->pieces, (std::vector<std::string>{"D", "E"}));

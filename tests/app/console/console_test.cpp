@@ -105,9 +105,26 @@ TEST_F(ConsoleTest, EveryAnswerHasTheGuardsAndNoCors) {
 
 TEST_F(ConsoleTest, AStarIsNoId) {
     for (const char* target : {"/*", "/api/t/*", "/api/checks/*", "/api/projects/*", "/api/meshes/*",
-                               "/api/meshes/*/states/*", "/api/projects/*/outputs/*"}) {
+                               "/api/meshes/*/states/*", "/api/paths/*", "/api/projects/*/outputs/*"}) {
         EXPECT_EQ(get(target).status, 404U) << target;
     }
+}
+
+TEST_F(ConsoleTest, AWayThatIsNotThereIsNamed) {
+    const HttpAnswer answer = get("/api/paths/" + std::string(32, 'a'));
+    EXPECT_EQ(answer.status, 404U);
+    EXPECT_NE(answer.body.find("there is no way of a tool aaaa"), std::string::npos) << answer.body;
+    EXPECT_EQ(get("/api/paths/x/y").status, 404U);
+    EXPECT_EQ(post("/api/paths/" + std::string(32, 'a'), "{}").status, 405U);
+}
+
+// The project has no job yet: the work says so, and what to do.
+TEST_F(ConsoleTest, AReplayWithoutAJobFailsWithItsDocument) {
+    const Json work = end_of(post(project() + "/work", R"({"kind":"replay","piece":"A","part":1})", p.revision()));
+    EXPECT_EQ(work.at("kind"), "replay");
+    EXPECT_EQ(work.at("state"), "failed");
+    EXPECT_EQ(work.at("error").at("unchanged"), "No job was changed.");
+    EXPECT_FALSE(work.at("error").at("to_do").get<std::string>().empty());
 }
 
 TEST_F(ConsoleTest, IdsOfOthersLeadNowhere) {

@@ -123,7 +123,7 @@ TEST(TimeAccount, JointMovesAndToolChangesCountForTheirOperation) {
     sweep.seconds = 3;
     path.sweeps = {sweep, sweep};
     path.sweeps[1].use = 1;
-    path.tool_changes = {0, 1, 1};
+    path.tool_changes = {{0, 0}, {1, 0}, {1, 0}};
     CellMachine machine = some_machine(cycle);
     machine.program.tool_change_s = 45;
     const std::vector<MachineTime> made = account(path, machine);

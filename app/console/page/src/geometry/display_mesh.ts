@@ -64,7 +64,7 @@ export function decodeMesh(buffer: ArrayBuffer): DisplayMesh {
   };
 }
 
-function decodePositions(bytes: Uint8Array, vertices: number, origin: Vec3, step: number): Float32Array {
+export function decodePositions(bytes: Uint8Array, vertices: number, origin: Vec3, step: number): Float32Array {
   const positions = new Float32Array(3 * vertices);
   for (let axis = 0; axis < 3; ++axis) {
     const low = 2 * axis * vertices;
@@ -80,25 +80,30 @@ function decodePositions(bytes: Uint8Array, vertices: number, origin: Vec3, step
   return positions;
 }
 
+// A number to base 128, the lowest digit first, in as few bytes as it takes.
+export function readCode(bytes: Uint8Array, cursor: { at: number }): number {
+  let code = 0;
+  for (let shift = 0; ; shift += 7) {
+    if (cursor.at >= bytes.length || shift > 28) bad("a number does not end");
+    const byte = bytes[cursor.at++]!;
+    code += (byte & 127) * 2 ** shift;
+    if (byte >= 128) continue;
+    if (byte === 0 && shift > 0) bad("a number is longer than it needs to be");
+    return code;
+  }
+}
+
 function decodeIndices(bytes: Uint8Array, vertices: number, faces: number): Uint32Array {
   if (3 * faces > bytes.length) bad("it has fewer indices than its faces need");
   const indices = new Uint32Array(3 * faces);
   let next = 0;
-  let at = 0;
+  const cursor = { at: 0 };
   for (let i = 0; i < indices.length; ++i) {
-    let back = 0;
-    for (let shift = 0; ; shift += 7) {
-      if (at >= bytes.length || shift > 28) bad("an index does not end");
-      const byte = bytes[at++]!;
-      back += (byte & 127) * 2 ** shift;
-      if (byte >= 128) continue;
-      if (byte === 0 && shift > 0) bad("an index is longer than it needs to be");
-      break;
-    }
+    const back = readCode(bytes, cursor);
     if (back > next) bad("an index names no vertex");
     indices[i] = back === 0 ? next++ : next - back;
   }
-  if (at !== bytes.length || next !== vertices) bad("its indices are not those of its vertices");
+  if (cursor.at !== bytes.length || next !== vertices) bad("its indices are not those of its vertices");
   for (let i = 0; i < indices.length; i += 3)
     if (indices[i] === indices[i + 1] || indices[i + 1] === indices[i + 2] || indices[i] === indices[i + 2])
       bad("a face has a corner twice");

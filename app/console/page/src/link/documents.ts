@@ -300,6 +300,25 @@ export interface Plan extends JobsDocument {
   expires_s: number;
 }
 
+// A job replayed: coordinates of the setup, mm.
+export interface Replay {
+  piece: string;
+  part: number;
+  parts: number;
+  job: string; // SHA-256 of its file
+  positive: boolean; // the verdict of its proof
+  cell_mm: number;
+  stock_off_mm: number; // a face of a stage is so far from the foam that it shows at most
+  time_s: number;
+  removed_mm3: number;
+  path: string; // id of the way of the tool
+  sections: { file: string; tool: number; orientation: number; points: number }[]; // of the way, in its order
+  tools: { number: number; name: string }[];
+  tool_axes: Vec3[]; // by orientation
+  stages: { mesh: string; points: number; seconds: number; removed_mm3: number }[];
+  deviation: { mesh: string; classes: string } | null; // of the piece; null before the last part
+}
+
 export interface Inspect {
   file: string;
   format: string;

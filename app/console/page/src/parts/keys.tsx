@@ -21,7 +21,10 @@ export type KeyAction =
   | "plane back"
   | "plane on"
   | "flip"
-  | "hide";
+  | "hide"
+  | "play"
+  | "stage back"
+  | "stage on";
 
 interface Key {
   key: string; // of KeyboardEvent, lower case
@@ -52,6 +55,9 @@ export const KEYS: Key[] = [
   { key: "]", shown: "]", action: "plane on", what: "Move the plane on by the step" },
   { key: "x", shown: "X", action: "flip", what: "Flip the plane" },
   { key: "h", shown: "H", action: "hide", what: "Hide one side of the plane, the other, none" },
+  { key: "p", shown: "P", action: "play", what: "Play the replay, or pause it" },
+  { key: ",", shown: ",", action: "stage back", what: "Go back to the stage before in the replay" },
+  { key: ".", shown: ".", action: "stage on", what: "Go on to the next stage in the replay" },
 ];
 
 const handlers = new Map<KeyAction, (() => void)[]>();

@@ -106,6 +106,7 @@ export const WORK_NAMES: Record<string, string> = {
   try: "Try the plane",
   setups: "Compare bases",
   verify: "Verify",
+  replay: "Replay",
   dry_run: "Dry run",
   export: "Export",
   guide: "Make the guide",

@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import { decodeMesh, decodeStates, type DisplayMesh } from "../geometry/display_mesh";
+import { decodeWay, type ToolWay } from "../geometry/tool_way";
 import { ApiError, getBytes } from "../link/api";
 import { asApiError } from "../parts/error";
 
@@ -25,6 +26,8 @@ export const readMesh = (id: string): Promise<DisplayMesh> =>
 
 export const readStates = (id: string, states: string, faces: number): Promise<Uint8Array> =>
   once(`${id}/${states}`, async () => decodeStates(await getBytes(`/api/meshes/${id}/states/${states}`), faces));
+
+export const readWay = (id: string): Promise<ToolWay> => once(id, async () => decodeWay(await getBytes(`/api/paths/${id}`)));
 
 // The meshes of these ids that are there by now, and the first error. The map is another one when a mesh has come.
 export function useMeshes(ids: string[]): { meshes: Map<string, DisplayMesh>; error: ApiError | null } {

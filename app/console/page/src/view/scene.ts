@@ -20,6 +20,7 @@ export interface Arrow {
   length: number; // mm
   colour: string;
   rings: number; // around the shaft: a sign beside the colour
+  isAway?: boolean; // it need not be in a view that is fitted
 }
 
 export interface Outline {
@@ -187,7 +188,8 @@ export class View3D {
       this.extras.add(makeArrow(three, arrow));
     this.canvas.dataset["arrows"] = String(arrows.length);
     this.measure();
-    for (const { from } of arrows) {
+    for (const { from, isAway } of arrows) {
+      if (isAway) continue;
       const away = from.map((value, axis) => value - this.extent.centre[axis]!);
       this.extent.radius = Math.max(this.extent.radius, Math.hypot(...away));
     }

@@ -3,7 +3,7 @@
 import { useEffect, useState } from "preact/hooks";
 import type { Address } from "../../address";
 import { ask, openInWindow, post, type ApiError } from "../../link/api";
-import type { JobsDocument, PlannedJob, Project, VerifyDocument } from "../../link/documents";
+import type { JobsDocument, PlannedJob, Project, Replay, VerifyDocument } from "../../link/documents";
 import { currentWork } from "../../link/state";
 import { useProject, useStore } from "../../link/store";
 import { useAsking, type Asking } from "../../parts/asking";
@@ -15,6 +15,7 @@ import { CarvedTable } from "./carved";
 import { CellPanels } from "./cells";
 import { HandOver } from "./hand_over";
 import { QueueTable } from "./queue";
+import { ReplayPanel } from "./replay";
 import { SimulatorPanel } from "./simulator";
 
 export function JobsPage({ address, stale }: { address: Address; stale: boolean }) {
@@ -70,6 +71,15 @@ function ProjectJobs({ project, stale, onJobs }: ProjectProps) {
   const isWorking = state ? currentWork(state) !== null : true;
   const off = stale || (state?.read_only ?? true) || isWorking || asking.busy;
   const { jobs, error } = useJobs(project, isWorking);
+  const [replay, setReplay] = useState<Replay | null>(null);
+  const replaying = useWork<Replay>(setReplay);
+  useEffect(() => setReplay(null), [project.id, project.revision]);
+  const beginReplay = ({ piece, part }: PlannedJob) =>
+    asking.run(async () => {
+      setReplay(null);
+      const body = { kind: "replay", piece, part };
+      replaying.begin((await post<{ work: string }>(`/api/projects/${project.id}/work`, body, project.revision)).work);
+    });
   useEffect(() => onJobs(jobs?.jobs ?? []), [jobs]);
   const toggle = (piece: string) =>
     setChosen((old) => (old.includes(piece) ? old.filter((one) => one !== piece) : [...old, piece]));
@@ -83,8 +93,10 @@ function ProjectJobs({ project, stale, onJobs }: ProjectProps) {
       {project.stage !== "done" && <p>No job is there yet: Prepare sets the pieces up and writes their jobs.</p>}
       {jobs !== null && jobs.jobs.length === 0 && <p>The project has no job for the cell.</p>}
       {jobs !== null && jobs.jobs.length > 0 && (
-        <JobTable jobs={jobs.jobs} project={project} chosen={pieces} onToggle={toggle} asking={asking} />
+        <JobTable jobs={jobs.jobs} project={project} chosen={pieces} onToggle={toggle} asking={asking} off={off} onReplay={beginReplay} />
       )}
+      <ErrorBox error={replaying.error} actions={{ try_again: asking.again, show: asking.clear }} />
+      {replay && <ReplayPanel key={replay.job} replay={replay} onClose={() => setReplay(null)} />}
       {jobs?.refused.map((why) => (
         <p key={why} class="state warn">
           <span aria-hidden="true">⚠ </span>
@@ -102,9 +114,11 @@ interface TableProps {
   chosen: string[];
   onToggle: (piece: string) => void;
   asking: Asking;
+  off: boolean;
+  onReplay: (job: PlannedJob) => void;
 }
 
-function JobTable({ jobs, project, chosen, onToggle, asking }: TableProps) {
+function JobTable({ jobs, project, chosen, onToggle, asking, off, onReplay }: TableProps) {
   return (
     <table>
       <caption class="unseen">Jobs of {project.name}</caption>
@@ -117,7 +131,7 @@ function JobTable({ jobs, project, chosen, onToggle, asking }: TableProps) {
             Machine time
           </th>
           <th scope="col">Proof</th>
-          <th scope="col">Papers</th>
+          <th scope="col">Replay and papers</th>
         </tr>
       </thead>
       <tbody>
@@ -144,6 +158,9 @@ function JobTable({ jobs, project, chosen, onToggle, asking }: TableProps) {
               <Signed state={job.proven ? "positive" : "missing"} word={job.proven ? "proven" : "not proven"} />
             </td>
             <td class="row">
+              <button type="button" class="quiet" disabled={off} aria-label={`Replay ${nameOf(job)}`} onClick={() => onReplay(job)}>
+                Replay
+              </button>
               {PAPERS.map(({ file, words }) => (
                 <button
                   key={file}
@@ -162,6 +179,8 @@ function JobTable({ jobs, project, chosen, onToggle, asking }: TableProps) {
     </table>
   );
 }
+
+const nameOf = (job: PlannedJob): string => `piece ${job.piece}${job.parts > 1 ? `, part ${job.part}` : ""}`;
 
 const PAPERS = [
   { file: "setup.html", words: "Setup sheet" },
