@@ -24,9 +24,9 @@
 #include "cam/setup/drill_orientation.h"
 #include "segment/mesh/transform.h"
 #include "sim/program/krl_reader.h"
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/signal_walk.h"
 #include "sim/replay/turn.h"
+#include "sim/replay/walk/machine_walk.h"
 
 namespace {
 

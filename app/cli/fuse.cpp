@@ -4,7 +4,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/report/fuse_report.h"
+#include "app/report/scan/fuse_report.h"
 #include "app/store/project_folder.h"
 #include "base/timings.h"
 #include "segment/io/write_mesh.h"

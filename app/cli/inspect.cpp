@@ -4,7 +4,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/report/inspect_report.h"
+#include "app/report/scan/inspect_report.h"
 #include "base/timings.h"
 #include "segment/import/import_scan.h"
 

@@ -4,7 +4,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/unusual_size.h"
-#include "app/report/repair_report.h"
+#include "app/report/scan/repair_report.h"
 #include "segment/io/write_mesh.h"
 
 namespace qchopper {

@@ -112,7 +112,7 @@ struct ShownProject {
     ProjectSummary summary;
     std::size_t decisions = 0;         // in force
     std::vector<std::string> history;  // these as sentences, the oldest first
-    JsonText segment;  // null while another program writes the project
+    JsonText segment;                  // null while another program writes the project
 };
 
 // Results of work.

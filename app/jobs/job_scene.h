@@ -51,8 +51,8 @@ class JobContents {
     std::map<std::string, std::string> texts_;
 };
 
-// The texts of the job. Throws LineRefused (sim/program/program_line.h). Precondition: the program is in the language of
-// the cell.
+// The texts of the job. Throws LineRefused (sim/program/program_line.h). Precondition: the program is in the language
+// of the cell.
 ParsedProgram program_read_back(const ProofInput& input);
 
 // Without the stock before. The input must outlive it. Precondition: the cell has a machine.

@@ -22,6 +22,9 @@ struct Row {
 
 constexpr Row rows[] = {
     // the scan and its repair
+    {"larger_voxel", "give --voxel a larger length"},
+    {"positive_voxel", "give --voxel a length above 0"},
+    {"another_voxel", "give --voxel another length"},
     {"give_unit", "pass --units mm, cm, m or in"},
     {"leave_unit", "leave --units out; if the file is wrong, save it in a format without units, such as PLY"},
     {"check_unit", "check --units, or export the scan again"},
@@ -105,7 +108,7 @@ constexpr Row rows[] = {
      "Look at the cell and what it has cut, then accept its memory: qchopper cell accept-store[ --to {0}]"},
     {"help_of_cell", "see qchopper cell --help"},
     {"list_who_may_connect",
-     "Listen on 127.0.0.1, or name who may connect: --allow ADDRESS,... with numeric addresses."},
+     "Listen on 127.0.0.1, or name who may connect: --allow with numeric addresses, apart by commas."},
     {"list_faults", "docs/user/cell-sim.md lists the commands, `qchopper cell-sim --list-faults` the faults."},
 };
 

@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "devices/wire/ed25519.h"
 #include "cam/job/ticket.h"
 #include "devices/journal/journal_event.h"
 #include "devices/wire/codes.h"
+#include "devices/wire/ed25519.h"
 
 namespace qchopper {
 

@@ -16,6 +16,7 @@ struct JournalCell {
     std::string endpoint;  // "127.0.0.1:15020" of a simulated cell; empty for a real one, which its id names alone
     bool operator==(const JournalCell&) const = default;
 };
+
 struct JournalRow {
     std::int64_t number = 0;    // from 1, without gaps; after an export from the number after its last row
     std::uint64_t unix_ms = 0;  // nothing is decided by it

@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "devices/wire/ed25519.h"
 #include "base/sha256.h"
 #include "devices/keys/trusted_keys.h"
+#include "devices/wire/ed25519.h"
 
 namespace qchopper {
 

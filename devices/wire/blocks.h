@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "devices/wire/ed25519.h"
 #include "cam/job/ticket.h"
 #include "devices/wire/codes.h"
+#include "devices/wire/ed25519.h"
 #include "devices/wire/packml.h"
 
 namespace qchopper {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "devices/wire/ed25519.h"
 #include "devices/wire/bus.h"
+#include "devices/wire/ed25519.h"
 
 namespace qchopper {
 

@@ -1,4 +1,4 @@
-// A tree of triangles per scan; in each round points_per_scan queries per pair of scans whose boxes meet, and one
+// A tree of triangles per scan; each round costs points_per_scan queries per pair of scans whose boxes meet, and one
 // system of 6 equations per scan.
 
 #include "segment/fuse/align.h"
@@ -25,7 +25,7 @@ constexpr double tukey = 4.685 * 1.4826;   // times the median: from there on a 
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-struct Sample {
+struct PairingPoint {
     Vec3 point;
     Vec3 normal;
 };
@@ -35,15 +35,15 @@ struct Known {
     const ScanSurface& surface;
     TriangleTree tree;
     Box box;
-    std::vector<Sample> samples;
+    std::vector<PairingPoint> samples;
 };
 
-std::vector<Sample> samples_of(const ScanSurface& surface, std::size_t wanted) {
+std::vector<PairingPoint> samples_of(const ScanSurface& surface, std::size_t wanted) {
     std::vector<std::uint32_t> usable;
     for (std::uint32_t i = 0; i < surface.mesh.points.size(); ++i) {
         if (surface.border[i] == 0 && norm(surface.normals[i]) > 0) usable.push_back(i);
     }
-    std::vector<Sample> samples;
+    std::vector<PairingPoint> samples;
     const double step = std::max(1.0, static_cast<double>(usable.size()) / static_cast<double>(wanted));
     for (double at = 0; at < static_cast<double>(usable.size()); at += step) {
         const std::uint32_t i = usable[static_cast<std::size_t>(at)];
@@ -80,7 +80,7 @@ struct Pair {
 
 // The pairs of a sample of scan `i` with scan `j`; nothing if it is too far, at a border or turned away.
 std::optional<Pair> paired(const std::vector<Known>& all, std::span<const Pose> poses, std::size_t i, std::size_t j,
-                           const Sample& sample, double limit) {
+                           const PairingPoint& sample, double limit) {
     const Known& other = all[j];
     const Vec3 point = apply(poses[i], sample.point);
     const Vec3 there = apply_inverse(poses[j], point);
@@ -104,7 +104,7 @@ std::vector<Pair> pairs_of(const std::vector<Known>& all, std::span<const Pose> 
         for (std::size_t j = 0; j < all.size(); ++j) {
             context.check_cancelled();
             if (i == j || all[j].surface.mesh.triangles.empty()) continue;
-            for (const Sample& sample : all[i].samples) {
+            for (const PairingPoint& sample : all[i].samples) {
                 if (const std::optional<Pair> pair = paired(all, poses, i, j, sample, limit)) {
                     of_scan[i].push_back(*pair);
                 }
@@ -208,7 +208,7 @@ double apart(std::span<const ScanSurface> surfaces, std::span<const Pose> poses,
     std::size_t count = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         context.check_cancelled();
-        for (const Sample& sample : all[i].samples) {
+        for (const PairingPoint& sample : all[i].samples) {
             double least = limit;
             for (std::size_t j = 0; j < all.size(); ++j) {
                 if (const auto pair = i == j ? std::nullopt : paired(all, poses, i, j, sample, limit)) {

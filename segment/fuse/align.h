@@ -6,7 +6,7 @@
 // G. Medioni, "Object modelling by registration of multiple range images" (1992); all together: K. Pulli, "Multiview
 // registration for large data sets" (1999)). Dropped are pairs that are too far apart, at borders, or of normals more
 // than 45 degrees apart; the others are weighted by Tukey's biweight. The result does not depend on the number of
-// threads (tests/segment/fuse/align_test.cpp).
+// threads (tests/segment/fuse/fuse_test.cpp).
 
 #pragma once
 

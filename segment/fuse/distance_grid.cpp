@@ -1,5 +1,6 @@
 // The lattice is kept in blocks of 8 x 8 x 8 cells, those alone that some triangle comes near. A list of triangles per
-// block is made first, so that each block is made by one thread, scan after scan.
+// block is made first, so that each block is made by one thread, scan after scan. O(triangles * points of the lattice
+// within reach of one).
 
 #include "segment/fuse/distance_grid.h"
 
@@ -41,7 +42,7 @@ std::size_t index_in_block(LatticePoint p) {
     return static_cast<std::size_t>(2 * cell + (p.x & 1));
 }
 
-struct Corner {
+struct ScanCorner {
     Vec3 point;
     Vec3 normal;
     double weight = 0;
@@ -50,7 +51,7 @@ struct Corner {
 
 // Of one scan, in the common frame.
 struct NearFace {
-    std::array<Corner, 3> corner;
+    std::array<ScanCorner, 3> corner;
     std::uint8_t open = 0;  // as ScanSurface::open
     Vec3 across;            // unit normal
     Vec3 centre;
@@ -140,7 +141,7 @@ class Lattice {
         bool is_first = true;
         for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const ScanSurface& surface = surfaces_[s];
-            std::vector<Corner> moved;
+            std::vector<ScanCorner> moved;
             for (std::size_t i = 0; i < surface.mesh.points.size(); ++i) {
                 moved.push_back({apply(poses[s], surface.mesh.points[i]), rotate(poses[s], surface.normals[i]),
                                  surface.weights[i], surface.border[i] != 0});
@@ -160,7 +161,7 @@ class Lattice {
 
     [[noreturn]] static void refuse() {
         throw InputError(InputFault::use, "the lattice would have more than 200 million points",
-                         "give --voxel a larger length");
+                         Sentence::with_key("larger_voxel", {}, "give a larger voxel"));
     }
 
     std::array<Vec3, 3> points_of(std::size_t scan, std::size_t triangle) const {
@@ -248,12 +249,13 @@ class Lattice {
     NearFace face_of(const NearTriangle& near) const {
         const ScanSurface& surface = surfaces_[near.scan];
         const Triangle& t = surface.mesh.triangles[near.triangle];
-        const std::vector<Corner>& corners = corners_[near.scan];
+        const std::vector<ScanCorner>& corners = corners_[near.scan];
         NearFace face{{corners[t[0]], corners[t[1]], corners[t[2]]}, surface.open[near.triangle], {}, {}, 0};
         const auto& [a, b, c] = face.corner;
         face.across = normalized(cross(b.point - a.point, c.point - a.point));
         face.centre = (1.0 / 3) * (a.point + b.point + c.point);
-        for (const Corner& corner : face.corner) face.radius = std::max(face.radius, norm(corner.point - face.centre));
+        for (const ScanCorner& corner : face.corner)
+            face.radius = std::max(face.radius, norm(corner.point - face.centre));
         return face;
     }
 
@@ -338,8 +340,8 @@ class Lattice {
     double reach_;
     const Context& context_;
     Vec3 origin_;
-    std::vector<std::vector<Corner>> corners_;  // of each scan, in the common frame
-    std::vector<NearTriangle> near_;            // by block
+    std::vector<std::vector<ScanCorner>> corners_;  // of each scan, in the common frame
+    std::vector<NearTriangle> near_;                // by block
     std::vector<BlockKey> keys_;
     std::vector<std::size_t> first_;  // of each block in near_
     std::unordered_map<BlockKey, std::size_t> number_of_;

@@ -71,9 +71,9 @@ ReadScan read(const fs::path& file, const std::string& name) {
     return scan;
 }
 
-std::vector<Pose> poses_of(const std::vector<ListedScan>& listed, bool is_other_sign) {
+std::vector<Pose> poses_of(const std::vector<PosedScan>& listed, bool is_other_sign) {
     std::vector<Pose> poses;
-    for (const ListedScan& scan : listed) poses.push_back(is_other_sign ? scan.other : scan.pose);
+    for (const PosedScan& scan : listed) poses.push_back(is_other_sign ? scan.other : scan.pose);
     return poses;
 }
 
@@ -110,9 +110,10 @@ void describe_scans(const std::vector<ScanSurface>& surfaces, const Alignment& a
 
 Fused fuse(const fs::path& list, const FuseOptions& options, const Context& context) {
     if (options.voxel && !(*options.voxel > 0 && std::isfinite(*options.voxel))) {
-        throw InputError(InputFault::use, "the voxel is not a length above 0", "give --voxel a length above 0");
+        throw InputError(InputFault::use, "the voxel is not a length above 0",
+                         Sentence::with_key("positive_voxel", {}, "give a voxel above 0"));
     }
-    const std::vector<ListedScan> listed = parse_scan_list(read_file(list, record_limit), list.filename().string());
+    const std::vector<PosedScan> listed = parse_scan_list(read_file(list, record_limit), list.filename().string());
     Fused fused;
     FuseReport& report = fused.report;
     std::vector<ScanSurface> surfaces;
@@ -141,7 +142,8 @@ Fused fuse(const fs::path& list, const FuseOptions& options, const Context& cont
     for (const AlignedScan& scan : alignment.scans) aligned.push_back(scan.pose);
     fused.mesh = merge_scans(surfaces, aligned, report.voxel, context);
     if (fused.mesh.triangles.empty()) {
-        throw InputError(InputFault::mesh, "the scans give no surface", "give --voxel another length");
+        throw InputError(InputFault::mesh, "the scans give no surface",
+                         Sentence::with_key("another_voxel", {}, "give another voxel"));
     }
     report.shells_left_out = keep_large_shells(fused.mesh);
     report.open_edges = edges(fused.mesh).faults.open;

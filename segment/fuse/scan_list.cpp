@@ -55,14 +55,14 @@ class ListReader {
         const Vec3 q = (1 / length) * Vec3{number[3], number[4], number[5]};
         const double real = number[6] / length;
         const std::string file(words[1]);
-        if (std::ranges::find(scans, file, &ListedScan::file) != scans.end()) {
+        if (std::ranges::find(scans, file, &PosedScan::file) != scans.end()) {
             refuse(file + " is listed twice", "list each scan once");
         }
         if (scans.size() == max_scans) refuse("more than 1,000 scans are listed", "fuse them in groups");
         scans.push_back({file, pose_of(shift, q, real), pose_of(shift, q, -real)});
     }
 
-    std::vector<ListedScan> scans;
+    std::vector<PosedScan> scans;
 
  private:
     [[noreturn]] void refuse(const std::string& what, const std::string& to_do) const {
@@ -84,7 +84,7 @@ class ListReader {
 
 }  // namespace
 
-std::vector<ListedScan> parse_scan_list(const Bytes& bytes, const std::string& name) {
+std::vector<PosedScan> parse_scan_list(const Bytes& bytes, const std::string& name) {
     std::string_view rest{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     ListReader reader(name);
     while (!rest.empty()) {

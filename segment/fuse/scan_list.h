@@ -3,7 +3,7 @@
 // A line is "bmesh FILE tx ty tz qi qj qk qr" (or "mesh"): a translation in the unit of the scans, and a unit
 // quaternion whose real part is last. Lines that begin with # or with another word, as "camera", say nothing of scans.
 // The sign of qr is not agreed on: of both rotations that with which the scans come to lie together is meant
-// (tests/segment/fuse/scan_list_test.cpp).
+// (tests/segment/fuse/range_scan_test.cpp).
 
 #pragma once
 
@@ -15,15 +15,15 @@
 
 namespace qchopper {
 
-struct ListedScan {
+struct PosedScan {
     std::string file;  // beside the list
     Pose pose;         // of the scan in the common frame, by the quaternion as it is written
     Pose other;        // and with the opposite sign of qr
-    bool operator==(const ListedScan&) const = default;
+    bool operator==(const PosedScan&) const = default;
 };
 
 // At least two. Throws InputError (mesh), with the line, for a scan without a pose, a pose that is no rotation (the
 // quaternion's length is not 1 within 1 %), one file twice, or fewer than two scans; `name` stands for the list.
-std::vector<ListedScan> parse_scan_list(const Bytes& bytes, const std::string& name);
+std::vector<PosedScan> parse_scan_list(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

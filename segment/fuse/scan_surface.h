@@ -3,7 +3,7 @@
 // In the unit and the frame of the scan until it is moved. A grid becomes triangles as G. Turk and M. Levoy, "Zippered
 // polygon meshes from range images" (1994), section 2, have it: of four neighbours the two triangles with the shorter
 // diagonal, of three one triangle, and none with an edge longer than a threshold, which would bridge a step in depth
-// (tests/segment/fuse/scan_surface_test.cpp). O(points).
+// (tests/segment/fuse/range_scan_test.cpp). O(points).
 
 #pragma once
 

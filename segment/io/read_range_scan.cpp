@@ -1,4 +1,4 @@
-// One pass over the elements, in the order of the header.
+// One pass over the elements, in the order of the header. O(bytes).
 
 #include "segment/io/read_range_scan.h"
 

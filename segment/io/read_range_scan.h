@@ -3,7 +3,7 @@
 // As the Stanford 3D Scanning Repository writes them: a PLY file with the elements "vertex" and "range_grid", each
 // entry of which lists no point or one, row by row, and the comments "obj_info num_cols N" and "obj_info num_rows N".
 // In the unit of the file. For all bytes the result is a scan with finite coordinates and valid indices, or an
-// InputError (mesh) that states what is wrong and at which line or byte (tests/segment/io/read_range_scan_test.cpp).
+// InputError (mesh) that states what is wrong and at which line or byte (tests/segment/fuse/range_scan_test.cpp).
 
 #pragma once
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "base/box.h"
-#include "devices/wire/ed25519.h"
 #include "base/files/file.h"
 #include "devices/wire/codec.h"
+#include "devices/wire/ed25519.h"
 #include "sim/cell/faults.h"
 
 namespace qchopper {

@@ -7,9 +7,9 @@
 #include "base/text.h"
 #include "sim/replay/flush_check.h"
 #include "sim/replay/gouge.h"
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/reach/reachable.h"
 #include "sim/replay/removal_rate_check.h"
+#include "sim/replay/walk/machine_walk.h"
 
 namespace qchopper {
 namespace {

@@ -62,7 +62,7 @@ HEAVY = {
     "TBB": (r"tbb/", 1),
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
     "toml++": (r"toml\+\+/", 1),
-    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 28),
+    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 32),
     "Beast": (r"boost/(beast|asio)/", 1),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),

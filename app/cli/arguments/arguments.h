@@ -329,11 +329,10 @@ struct Arguments {
     std::variant<SampleArguments, FuseArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, GuideArguments, ExportArguments, CellsListArguments, CellsShowArguments,
                  CellsRobotsArguments, CellsNewArguments, CellsCheckArguments, CellsReachArguments, SetupArguments,
-                 WorkArguments, SubmitArguments, GatherArguments, VerifyArguments, KeysArguments, DryRunArguments, CellSimArguments,
-                 DispatchArguments, JournalArguments, JournalJobsArguments, JournalExportArguments, CellControlArguments,
-                 CellCheckArguments, SchemaArguments, ServeArguments,
-                 ConsoleWorkerArguments, ConsoleMeshArguments,
-                 ConsolePaintArguments, ConsoleReplayArguments>
+                 WorkArguments, SubmitArguments, GatherArguments, VerifyArguments, KeysArguments, DryRunArguments,
+                 CellSimArguments, DispatchArguments, JournalArguments, JournalJobsArguments, JournalExportArguments,
+                 CellControlArguments, CellCheckArguments, SchemaArguments, ServeArguments, ConsoleWorkerArguments,
+                 ConsoleMeshArguments, ConsolePaintArguments, ConsoleReplayArguments>
         command;
 };
 

@@ -6,12 +6,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <set>
 #include <sstream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "segment/io/formats/text.h"
 
 namespace qchopper {

@@ -7,10 +7,10 @@
 #include <cassert>
 #include <optional>
 
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/mill_stock.h"
 #include "sim/replay/path_time.h"
 #include "sim/replay/stages/coarser_stock.h"
+#include "sim/replay/walk/machine_walk.h"
 
 namespace qchopper {
 namespace {

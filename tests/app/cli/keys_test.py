@@ -7,6 +7,7 @@ import json
 import os
 import pty
 import select
+import signal
 import shutil
 import subprocess
 import sys
@@ -75,10 +76,12 @@ class Typed:
                 got = os.read(terminal, 65536)
             except OSError:
                 break
-            self.output += got.decode(errors="replace")
+            self.output = (self.output + got.decode(errors="replace")).replace("\r\n", "\n")
             while self.output.count(": \n") + self.output.endswith(": ") > questions and questions < len(answers):
                 os.write(terminal, answers[questions].encode() + b"\n")
                 questions += 1
+        else:
+            os.kill(child, signal.SIGKILL)
         self.took_s = time.monotonic() - began
         self.questions = questions
         self.code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])

@@ -318,8 +318,8 @@ TEST_F(Segment, TellsAMissFromFragmentsWithTheExtentOfThePiece) {
 // Each command with its own examples, and every format that is read.
 TEST(SegmentHelp, AndThatOfEveryOtherCommandShowsItsOwnExamples) {
     const program::Folder folder;
-    for (const std::string command : {"sample", "fuse", "inspect", "repair", "prepare", "segment", "explain", "guide", "export",
-                                      "dry-run", "cell-sim", "dispatch"}) {
+    for (const std::string command : {"sample", "fuse", "inspect", "repair", "prepare", "segment", "explain", "guide",
+                                      "export", "dry-run", "cell-sim", "dispatch"}) {
         const program::Ended help = program::run({command, "--help"}, {folder.path});
         EXPECT_EQ(help.code, 0);
         const std::size_t at = help.out.find("Examples:\n");

@@ -27,8 +27,8 @@ TEST(Version, NamesTheBuildAndJobsRecordIt) {
 
 TEST(Version, OptionsThatEveryCommandHasAreInItsHelp) {
     const program::Folder folder;
-    for (const char* command : {"sample", "fuse", "inspect", "repair", "prepare", "segment", "explain", "guide", "export",
-                                "setup", "verify", "dry-run", "cell-sim", "dispatch", "schema"}) {
+    for (const char* command : {"sample", "fuse", "inspect", "repair", "prepare", "segment", "explain", "guide",
+                                "export", "setup", "verify", "dry-run", "cell-sim", "dispatch", "schema"}) {
         const program::Ended help = program::run({command, "--help"}, {folder.path});
         for (const char* option : {"--json", "--quiet", "--progress", "--timings", "--threads"}) {
             EXPECT_NE(help.out.find(option), std::string::npos) << command << " " << option;

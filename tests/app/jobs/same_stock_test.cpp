@@ -7,10 +7,10 @@
 #include <cstdlib>
 
 #include "cam/post/post.h"
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/mill_stock.h"
 #include "sim/replay/read_program.h"
 #include "sim/replay/stock/stock_model.h"
+#include "sim/replay/walk/machine_walk.h"
 #include "tests/cam/program/hand_made.h"
 
 namespace qchopper {

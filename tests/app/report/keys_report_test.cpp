@@ -32,7 +32,7 @@ TEST(KeysReport, SaysWhichKeysAreTrustedRevokedAndRefused) {
     EXPECT_NE(text.find(key_id_text(key_id_of(anna)) + "  anna: trusted since 2023-11-14"), std::string::npos) << text;
     EXPECT_NE(text.find("otto: REVOKED on 2023-11-14"), std::string::npos) << text;
     EXPECT_NE(text.find("/keys/b.key: REFUSED: it is empty"), std::string::npos) << text;
-    const nlohmann::ordered_json& json = *document(report).json;
+    const nlohmann::ordered_json json = *document(report).json;
     EXPECT_EQ(json["trusted"][0]["key_id"], key_id_text(key_id_of(anna)));
     EXPECT_TRUE(json["trusted"][0]["revoked_ms"].is_null());
     EXPECT_EQ(json["trusted"][1]["revoked_ms"], 1'700'000'100'000);

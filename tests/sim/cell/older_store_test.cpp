@@ -50,7 +50,7 @@ TEST(Fault, F24_AnyOlderCopyOfAStoreWithMarksGetsAnotherId) {
         const bool is_last = copy == bench.saved.back();
         const CellState after =
             boot({}, copy, 43, bench.now,
-                 CellHooks{{}, {}, {}, bench.hooks.read_marks, [](const SaveMarks&) { return true; }});
+                 CellHooks{{}, {}, {}, bench.hooks.read_marks, [](const SaveMarks&) { return true; }, {}});
         EXPECT_EQ(after.memory.store_id == id, is_last) << copy.epoch_held << " " << copy.starts_total;
     }
 }

@@ -10,8 +10,8 @@
 
 #include "base/files/file.h"
 #include "base/files/temporary_folder.h"
-#include "sim/replay/machine_walk.h"
 #include "sim/replay/replay.h"
+#include "sim/replay/walk/machine_walk.h"
 #include "tests/sim/replay/box_job.h"
 
 namespace qchopper {

@@ -1,30 +1,75 @@
 // Lengths are in the unit of the scans, of which nothing is known: with three significant digits.
 
-#include "app/report/fuse_report.h"
+#include "app/report/scan/fuse_report.h"
 
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
+#include "app/report/report_json.h"
 #include "base/printable.h"
 #include "base/text.h"
 
 namespace qchopper {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int digits = 3;
+
+// What the document says beside the report itself.
+struct WrittenMesh {
+    const Fused& fused;
+    std::string file;
+};
 
 std::string solid_name(std::filesystem::path out) {
     const std::string ending = out.extension().string();
     return out.replace_extension("").string() + "-solid" + ending;
 }
 
+std::vector<std::vector<double>> matrix_of(const Pose& pose) {
+    std::vector<std::vector<double>> rows;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 row = pose.row[static_cast<std::size_t>(i)];
+        rows.push_back({row.x, row.y, row.z, pose.shift[i]});
+    }
+    return rows;
+}
+
+}  // namespace
+
+template <class V, Of<FusedScan> T>
+void fields(V& v, T& scan) {
+    v("file", scan.file);
+    v("points", scan.points);
+    v("triangles", scan.triangles);
+    v("pairs", scan.pairs);
+    v("median_distance", scan.residual);
+    v("fits", scan.fits);
+    v.written("pose", [&] { return matrix_of(scan.pose); });
+}
+
+namespace {
+
+template <class V, Of<WrittenMesh> T>
+void fields(V& v, T& mesh) {
+    const FuseReport& report = mesh.fused.report;
+    v.constant("schema", "qchopper-fuse-1", "");
+    v("file", mesh.file);
+    v("scans", report.scans);
+    v("opposite_sign_of_qr", report.is_other_sign);
+    v("rounds", report.rounds);
+    v("median_distance", report.residual);
+    v("spacing", report.spacing);
+    v("voxel", report.voxel);
+    v.written("faces", [&] { return mesh.fused.mesh.triangles.size(); });
+    v("open_edges", report.open_edges);
+    v("shells_left_out", report.shells_left_out);
+}
+
 }  // namespace
 
 std::vector<std::string> lines(const Fused& fused, const std::filesystem::path& out) {
     const FuseReport& report = fused.report;
-    std::vector<std::vector<std::string>> rows{{"scan", "points", "triangles", "pairs", "median distance"}};
+    std::vector<std::vector<std::string>> rows{{"range scan", "points", "triangles", "pairs", "median distance"}};
     for (const FusedScan& scan : report.scans) {
         rows.push_back({printable(scan.file), with_commas(scan.points), with_commas(scan.triangles),
                         with_commas(scan.pairs),
@@ -43,33 +88,7 @@ std::vector<std::string> lines(const Fused& fused, const std::filesystem::path& 
 }
 
 Document document(const Fused& fused, const std::filesystem::path& out) {
-    const FuseReport& report = fused.report;
-    Json scans = Json::array();
-    for (const FusedScan& scan : report.scans) {
-        Json pose = Json::array();
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 row = scan.pose.row[i];
-            pose.push_back({row.x, row.y, row.z, scan.pose.shift[static_cast<int>(i)]});
-        }
-        scans.push_back({{"file", scan.file},
-                         {"points", scan.points},
-                         {"triangles", scan.triangles},
-                         {"pairs", scan.pairs},
-                         {"median_distance", scan.residual},
-                         {"fits", scan.fits},
-                         {"pose", pose}});
-    }
-    return compose({{"schema", "qchopper-fuse-1"},
-                    {"file", out.string()},
-                    {"scans", scans},
-                    {"opposite_sign_of_qr", report.is_other_sign},
-                    {"rounds", report.rounds},
-                    {"median_distance", report.residual},
-                    {"spacing", report.spacing},
-                    {"voxel", report.voxel},
-                    {"faces", fused.mesh.triangles.size()},
-                    {"open_edges", report.open_edges},
-                    {"shells_left_out", report.shells_left_out}});
+    return compose(json_of(WrittenMesh{fused, out.string()}));
 }
 
 }  // namespace qchopper

@@ -1,7 +1,7 @@
 // Step by step, with the joints, the table and the spindle as the state. Ways of the tip are linear in position and
 // turn about one axis. O(poses * bodies^2).
 
-#include "sim/replay/machine_walk.h"
+#include "sim/replay/walk/machine_walk.h"
 
 #include <algorithm>
 #include <cmath>

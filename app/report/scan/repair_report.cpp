@@ -1,6 +1,6 @@
 // Text and JSON from a value.
 
-#include "app/report/repair_report.h"
+#include "app/report/scan/repair_report.h"
 
 #include <nlohmann/json.hpp>
 

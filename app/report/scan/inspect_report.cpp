@@ -1,6 +1,6 @@
 // Text and JSON from a value. Lengths are in the unit of the file.
 
-#include "app/report/inspect_report.h"
+#include "app/report/scan/inspect_report.h"
 
 #include <nlohmann/json.hpp>
 
