@@ -125,6 +125,7 @@ double median(std::vector<double> values) {
 
 double median_residual(const std::vector<Pair>& pairs) {
     std::vector<double> sizes;
+    sizes.reserve(pairs.size());
     for (const Pair& pair : pairs) sizes.push_back(std::abs(pair.residual()));
     return median(std::move(sizes));
 }
@@ -195,6 +196,7 @@ double largest_move(const Box& box, const Pose& before, const Pose& after) {
 
 double first_limit(const std::vector<Known>& all, double least) {
     std::vector<double> diagonals;
+    diagonals.reserve(all.size());
     for (const Known& known : all) diagonals.push_back(norm(known.box.size()));
     return std::max(least, first_share * median(std::move(diagonals)));
 }

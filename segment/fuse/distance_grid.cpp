@@ -39,7 +39,8 @@ BlockKey key_of(int x, int y, int z) {
 std::size_t index_in_block(LatticePoint p) {
     constexpr int mask = (1 << block_shift) - 1;
     const int cell = (((p.z & mask) >> 1) * block_cells + ((p.y & mask) >> 1)) * block_cells + ((p.x & mask) >> 1);
-    return static_cast<std::size_t>(2 * cell + (p.x & 1));
+    const int index = 2 * cell + (p.x & 1);
+    return static_cast<std::size_t>(index);
 }
 
 struct ScanCorner {
@@ -119,9 +120,9 @@ class Lattice {
     }
 
     double value(LatticePoint p) const {
-        const std::size_t neighbour = static_cast<std::size_t>(
-            ((p.x >> block_shift) - at_.x) + 2 * ((p.y >> block_shift) - at_.y) + 4 * ((p.z >> block_shift) - at_.z));
-        const std::vector<float>* values = around_[neighbour];
+        const int neighbour =
+            ((p.x >> block_shift) - at_.x) + 2 * ((p.y >> block_shift) - at_.y) + 4 * ((p.z >> block_shift) - at_.z);
+        const std::vector<float>* values = around_[static_cast<std::size_t>(neighbour)];
         return values == nullptr || values->empty() ? unseen : (*values)[index_in_block(p)];
     }
 

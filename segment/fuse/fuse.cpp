@@ -73,6 +73,7 @@ ReadScan read(const fs::path& file, const std::string& name) {
 
 std::vector<Pose> poses_of(const std::vector<PosedScan>& listed, bool is_other_sign) {
     std::vector<Pose> poses;
+    poses.reserve(listed.size());
     for (const PosedScan& scan : listed) poses.push_back(is_other_sign ? scan.other : scan.pose);
     return poses;
 }
