@@ -30,10 +30,13 @@ class ProgramExecution {
     // free". Others say nothing that is needed, and a hole with another number than 1 to 9999 is another comment.
     void take_comment(std::string_view words);
 
+    // NOLINTBEGIN(readability-identifier-naming): named as private members are
     ParsedProgram program_;
     ModalState state_;
     SourcePlace place_;
-    std::uint32_t end_line_ = 0;  // of the file that is executed
+    // of the file that is executed
+    std::uint32_t end_line_ = 0;
+    // NOLINTEND(readability-identifier-naming)
 
  private:
     std::uint32_t hole_ = 0;  // that the lines drill

@@ -36,6 +36,7 @@ class ProgramWalk {
     void check_stop(SourcePlace place);
     const CuttingTool& tool() const { return machine_.tools[tool_]; }
 
+    // NOLINTBEGIN(readability-identifier-naming): named as private members are
     const ParsedProgram& program_;
     const ReplayScene& scene_;
     const CellMachine& machine_;
@@ -50,6 +51,7 @@ class ProgramWalk {
     SourcePlace free_from_home_;  // of the comment, until the first move of its chunk; line 0: there is none
     bool follows_line_ = false;
     ToolPath path_;
+    // NOLINTEND(readability-identifier-naming)
 
  private:
     void enter(const ProgramChunk& chunk);
