@@ -23,10 +23,13 @@ StockRecord some_stock() {
 
 // Whether one of the points about it is foam and it is not, or the other way round.
 bool is_near_surface(const StockModel& stock_model, Vec3 point, double distance) {
-    for (int i = 0; i < 27; ++i) {
-        const Vec3 off{static_cast<double>(i % 3 - 1), static_cast<double>(i / 3 % 3 - 1),
-                       static_cast<double>(i / 9 - 1)};
-        if (stock_model.is_in_stock(point + distance * off) != stock_model.is_in_stock(point)) return true;
+    for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 off{static_cast<double>(i % 3 - 1), static_cast<double>(i / 3 % 3 - 1),
+                           static_cast<double>(i / 9 - 1)};
+            const Vec3 there = point + share * distance * off;
+            if (stock_model.is_in_stock(there) != stock_model.is_in_stock(point)) return true;
+        }
     }
     return false;
 }
