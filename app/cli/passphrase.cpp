@@ -78,6 +78,16 @@ void refuse_empty(const Passphrase& passphrase) {
                      Sentence::with_key("make_key_without_passphrase", {}, "type one"));
 }
 
+// One line from the descriptor, or from the terminal without an echo after the question.
+Passphrase read_passphrase(const std::optional<int>& fd, const std::string& question) {
+    if (fd) return read_line(*fd);
+    const QuietTerminal terminal;
+    terminal.say(question);
+    Passphrase passphrase = read_line(terminal.fd());
+    terminal.say("\n");
+    return passphrase;
+}
+
 }  // namespace
 
 Passphrase::~Passphrase() {
@@ -88,15 +98,6 @@ bool Passphrase::add(char c) {
     if (text_.size() + 1 >= capacity) return false;
     text_ += c;
     return true;
-}
-
-Passphrase read_passphrase(const std::optional<int>& fd, const std::string& question) {
-    if (fd) return read_line(*fd);
-    const QuietTerminal terminal;
-    terminal.say(question);
-    Passphrase passphrase = read_line(terminal.fd());
-    terminal.say("\n");
-    return passphrase;
 }
 
 Passphrase new_passphrase(const std::optional<int>& fd, const std::string& name) {

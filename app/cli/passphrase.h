@@ -27,15 +27,13 @@ class Passphrase {
     std::string text_;
 };
 
-// One line from the descriptor, or from the terminal without an echo after `question`. Throws InputError (use): no such
-// descriptor, no terminal, too long; and Cancelled.
-Passphrase read_passphrase(const std::optional<int>& fd, const std::string& question);
-
-// For a new key: asks twice at a terminal. Throws InputError (use) also for an empty one, and for two that differ.
+// For a new key: one line from the descriptor, or asked twice at the terminal, without an echo. Throws InputError
+// (use): no such descriptor, no terminal, too long, empty, two that differ; and Cancelled.
 Passphrase new_passphrase(const std::optional<int>& fd, const std::string& name);
 
 // Opens the private key: one try with a descriptor, at most three questions at a terminal, a second for each that is
-// wrong. Throws what read_own_key and read_passphrase throw, and InputError (use) if the passphrase is wrong.
+// wrong. Throws what read_own_key throws; InputError (use): no such descriptor, no terminal, too long, wrong;
+// Cancelled.
 Ed25519PrivateKey open_own_key(const std::string& key, const std::optional<int>& passphrase_fd);
 
 }  // namespace qchopper

@@ -24,6 +24,14 @@ constexpr const char* keep_it =
     "Keep the folder as it is for the inspection, and give dispatch an empty one by moving it away; the cell still "
     "refuses a file that it has carved.";
 
+// The hash of a row, 64 digits.
+std::string chained(const std::string& before, std::int64_t number, std::uint64_t time_ms, const std::string& kind,
+                    const std::string& text) {
+    const std::string row =
+        before + "\n" + std::to_string(number) + "\n" + std::to_string(time_ms) + "\n" + kind + "\n" + text;
+    return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(row.data()), row.size()}));
+}
+
 std::string first_hash(const JournalCell& cell) {
     return chained(first_format, cell.cell_id, cell.simulated ? 1 : 0, "cell", cell.endpoint);
 }
@@ -186,13 +194,6 @@ void refuse_write(const fs::path& folder, const std::string& why) {
                      "Free space on the disk and check the rights of the folder.");
 }
 
-std::string chained(const std::string& before, std::int64_t number, std::uint64_t time_ms, const std::string& kind,
-                    const std::string& text) {
-    const std::string row =
-        before + "\n" + std::to_string(number) + "\n" + std::to_string(time_ms) + "\n" + kind + "\n" + text;
-    return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(row.data()), row.size()}));
-}
-
 std::int64_t last_row_noted(const fs::path& folder) {
     try {
         const Bytes bytes = read_file(folder / "lock", settings_limit);
@@ -244,6 +245,9 @@ void set_head(Database& database, const JournalHead& head) {
     database.run("UPDATE meta SET format = 'qchopper-journal-2'");
 }
 
+namespace {
+
+// Of a new journal, and its head if that is not 0.
 void make_tables(Database& database, const JournalCell& cell, const JournalHead& head) {
     database.run("BEGIN IMMEDIATE");
     database.run("CREATE TABLE meta(format TEXT, cell_id INTEGER, simulated INTEGER, endpoint TEXT)");
@@ -261,6 +265,8 @@ void make_tables(Database& database, const JournalCell& cell, const JournalHead&
     if (head.number != 0) set_head(database, head);
     database.run("COMMIT");
 }
+
+}  // namespace
 
 std::string add_row(Database& database, const JournalRow& row, const std::string& hash_before) {
     const std::string text = text_of(row.event);

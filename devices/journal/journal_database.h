@@ -23,10 +23,6 @@ std::filesystem::path journal_file(const std::filesystem::path& folder);
 [[noreturn]] void refuse_damaged(const std::filesystem::path& folder, const std::string& why);
 [[noreturn]] void refuse_write(const std::filesystem::path& folder, const std::string& why);
 
-// The hash of a row, 64 digits.
-std::string chained(const std::string& before, std::int64_t number, std::uint64_t time_ms, const std::string& kind,
-                    const std::string& text);
-
 // What run() and the steps of a Statement throw: InputError, config if the file is damaged, else io.
 class Database {
  public:
@@ -69,8 +65,6 @@ class Statement {
     sqlite3_stmt* statement_ = nullptr;
 };
 
-// Makes the tables of a new journal, and its head if that is not 0.
-void make_tables(Database& database, const JournalCell& cell, const JournalHead& head);
 // Precondition: inside of a transaction, and no head in the file.
 void set_head(Database& database, const JournalHead& head);
 // The hash of the added row.

@@ -93,12 +93,6 @@ std::string to_json(const JobSignature& signature) {
     return json_values::to_document(signature);
 }
 
-JobSignature job_signature_from_json(std::string_view text) {
-    JobSignature signature;
-    json_values::from_document(text, signature);
-    return signature;
-}
-
 std::filesystem::path signature_file(const std::filesystem::path& job) {
     std::filesystem::path file = job;
     return file.replace_extension(".signature.json");
@@ -116,7 +110,9 @@ FoundSignature read_signature(const std::filesystem::path& job) {
     try {
         const Bytes bytes = read_file(file, settings_limit);
         if (bytes.empty()) return {{}, name + " is empty"};
-        return {job_signature_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}), {}};
+        JobSignature signature;
+        json_values::from_document({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, signature);
+        return {signature, {}};
     } catch (const InputError& fault) {
         return {{}, std::string("its signature cannot be read: ") + fault.what()};
     } catch (const json_values::NotJson&) {

@@ -39,8 +39,6 @@ std::string fault_of(const JobSignature& signature, const Sha256& job_sha256, st
                      const TrustedKeys& trusted, std::uint64_t now_ms);
 
 std::string to_json(const JobSignature& signature);
-// Throws std::runtime_error: why the text is no signature, a signature that is cut off among it.
-JobSignature job_signature_from_json(std::string_view text);
 
 // jobs/B.signature.json for jobs/B.qjob.
 std::filesystem::path signature_file(const std::filesystem::path& job);

@@ -76,14 +76,8 @@ std::string read_string(ProgramLine& line) {
     return std::string(line.until_quote());
 }
 
-}  // namespace
-
-void need_assignment(ProgramLine& line) {
-    line.need(':');
-    line.need('=');
-}
-
-ProgramFrame read_rapid_frame(ProgramLine& line) {
+// [[x,y,z],[q1,q2,q3,q4]]. Coordinates are below 5 m.
+ProgramFrame read_pose(ProgramLine& line) {
     ProgramFrame frame;
     line.need('[');
     frame.shift = read_point(line);
@@ -93,6 +87,13 @@ ProgramFrame read_rapid_frame(ProgramLine& line) {
     return frame;
 }
 
+}  // namespace
+
+void need_assignment(ProgramLine& line) {
+    line.need(':');
+    line.need('=');
+}
+
 // [TRUE,[[x,y,z],[q]],[mass,[cog],[q],ix,iy,iz]]
 RapidTool read_tooldata(ProgramLine& line) {
     constexpr double largest_inertia = 1000;
@@ -100,7 +101,7 @@ RapidTool read_tooldata(ProgramLine& line) {
     line.need('[');
     if (!line.takes_word("true")) line.refuse("the robot must hold the tool: TRUE");
     need_comma(line);
-    tool.frame = read_rapid_frame(line);
+    tool.frame = read_pose(line);
     need_comma(line);
     line.need('[');
     tool.load.mass_kg = line.number(0, 1000);
@@ -131,9 +132,9 @@ RapidWork read_wobjdata(ProgramLine& line) {
     if (stands ? !unit.empty() : !is_unit) line.refuse("the mechanical unit is none, or STN1 to STN6 of a table");
     if (!stands) work.unit = static_cast<std::uint32_t>(unit[3] - '0');
     need_comma(line);
-    const ProgramFrame user = read_rapid_frame(line);
+    const ProgramFrame user = read_pose(line);
     need_comma(line);
-    const ProgramFrame object = read_rapid_frame(line);
+    const ProgramFrame object = read_pose(line);
     line.need(']');
     if (!is_nowhere(stands ? object : user)) line.refuse("one of the two frames must be [[0,0,0],[1,0,0,0]]");
     work.base = stands ? user : object;

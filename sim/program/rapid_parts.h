@@ -64,8 +64,6 @@ struct RapidTarget {
 };
 
 void need_assignment(ProgramLine& line);  // :=
-// [[x,y,z],[q1,q2,q3,q4]]. Coordinates are below 5 m.
-ProgramFrame read_rapid_frame(ProgramLine& line);
 RapidTool read_tooldata(ProgramLine& line);
 RapidWork read_wobjdata(ProgramLine& line);
 RapidSpeed read_speeddata(ProgramLine& line);

@@ -109,7 +109,8 @@ std::optional<ShownReplay> kept_replay(const fs::path& folder, const fs::path& f
     const std::string json = in.text();
     if (!in.is_whole()) return std::nullopt;
     try {
-        ShownReplay replay = replay_from_json(json);
+        ShownReplay replay;
+        from_document(json, replay);
         if (is_there(replay, folder)) return replay;
     } catch (const std::runtime_error&) {  // it is made again
     }
@@ -214,7 +215,7 @@ ShownReplay shown_replay(const ReplayOrder& order, const Context& context) {
     }
     ShownReplay replay = made_replay(job, options, folder, context);
     CacheWriter content;
-    content.put(to_json(replay));
+    content.put(to_document(replay));
     keep(file, content);
     remove_oldest(folder, replay_ending, kept_replays);
     remove_oldest_display(folder, kept_files);
@@ -222,17 +223,7 @@ ShownReplay shown_replay(const ReplayOrder& order, const Context& context) {
 }
 
 Document document(const ShownReplay& replay) {
-    return compose_line(nlohmann::ordered_json::parse(to_json(replay)));
-}
-
-std::string to_json(const ShownReplay& replay) {
-    return to_document(replay);
-}
-
-ShownReplay replay_from_json(const std::string& json) {
-    ShownReplay replay;
-    from_document(json, replay);
-    return replay;
+    return compose_line(nlohmann::ordered_json::parse(to_document(replay)));
 }
 
 }  // namespace qchopper

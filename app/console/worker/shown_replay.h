@@ -73,7 +73,5 @@ std::filesystem::path replay_folder(const std::filesystem::path& project);
 ShownReplay shown_replay(const ReplayOrder& order, const Context& context);
 
 Document document(const ShownReplay& replay);
-std::string to_json(const ShownReplay& replay);
-ShownReplay replay_from_json(const std::string& json);  // throws std::runtime_error
 
 }  // namespace qchopper
