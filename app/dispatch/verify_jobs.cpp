@@ -24,6 +24,7 @@
 #include "cam/job/read_job.h"
 #include "cam/setup/block_placement.h"
 #include "segment/mesh/transform.h"
+#include "sim/replay/signal_walk.h"
 
 namespace qchopper {
 namespace {
@@ -62,12 +63,49 @@ std::vector<ProofFinding> faults_against_cell(const ReadJob& job, const Cell& ce
     return faults;
 }
 
+// "B.carved.glb" beside "B.qjob".
+fs::path view_file(const fs::path& job) {
+    return fs::path(job).replace_extension(".carved.glb");
+}
+
+// The straight moves of the program, in setup coordinates, by the orientation of their chunk. A joint move ends a line.
+std::vector<OrientationPath> paths_of(const ProofInput& input) {
+    const ParsedProgram parsed = program_read_back(input);
+    std::map<std::string, std::size_t> orientation_of;
+    for (const JobChunk& chunk : input.program.chunks) orientation_of[chunk.file] = chunk.orientation;
+    std::map<std::size_t, OrientationPath> paths;
+    for (const ProgramChunk& chunk : parsed.chunks) {
+        const auto orientation = orientation_of.find(parsed.files[chunk.file]);
+        if (orientation == orientation_of.end()) continue;  // the main program
+        OrientationPath& path = paths[orientation->second];
+        path.orientation = orientation->second;
+        std::vector<Vec3> line;
+        for (std::size_t i = chunk.first; i < chunk.end; ++i) {
+            const ProgramStep& step = parsed.steps[i];
+            if (step.kind == StepKind::linear_move) line.push_back({step.values[0], step.values[1], step.values[2]});
+            if (step.kind != StepKind::joint_move && i + 1 < chunk.end) continue;
+            if (line.size() > 1) path.lines.push_back(std::move(line));
+            line.clear();
+        }
+    }
+    std::vector<OrientationPath> all;
+    all.reserve(paths.size());
+    for (auto& [orientation, path] : paths) all.push_back(std::move(path));
+    return all;
+}
+
 void add_proof(const ReadJob& job, const std::string& job_file, const CellFile& cell, JobVerdict& verdict,
                const Context& context, const ProofKeeping& keeping) {
     const JobContents contents(job, job_file);
-    JobProof proof = prove(contents.input(cell.cell), context);
+    const ProofInput input = contents.input(cell.cell);
+    JobProof proof = prove(input, context);
     if (!keeping.cache.empty()) keep_deviation(keeping.cache, job.file_sha256, cell.sha256, proof);
     if (keeping.stock_left != nullptr) *keeping.stock_left = std::move(proof.stock_left);
+    if (keeping.view != nullptr && !proof.deviation.empty()) {
+        const std::string generator = "qchopper " + verdict.program_version;
+        *keeping.view = carved_view(
+            {generator, &contents.mesh(), proof.deviation, std::move(proof.is_given_up), paths_of(input)}, context);
+    }
     verdict.figures = std::move(proof.figures);
     verdict.time = std::move(proof.time);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
@@ -215,10 +253,16 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
                          Sentence::with_key("give_cell_file", {}, "give the cell file"));
     }
     const CellFile described = read_cell_file(cell);
-    JobVerdict verdict = judge_job(read, job.string(), described, program_version, context);
+    std::optional<CarvedView> view;
+    JobVerdict verdict = judge_job(read, job.string(), described, program_version, context, {.view = &view});
     verdict.notes.emplace_back(
         "its setup was not compared with that of its project, because a single job file does not have the project");
-    return written(job, std::move(verdict), described.cell, trusted);
+    VerifiedJob verified = written(job, std::move(verdict), described.cell, trusted);
+    if (view) {
+        write_file(view_file(job), view->glb);
+        verified.view = WrittenView{view_file(job), view->path_tolerance, view->mesh_shift};
+    }
+    return verified;
 }
 
 VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::string>& piece,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/jobs/job_verdict.h"
+#include "app/pictures/carved_view.h"
 #include "app/store/project_context.h"
 #include "cam/cell/cell.h"
 #include "cam/job/job.h"
@@ -18,12 +19,20 @@
 
 namespace qchopper {
 
+// A viewer's file (app/pictures/carved_view.h) that was written.
+struct WrittenView {
+    std::filesystem::path file;
+    double path_tolerance = 0;  // mm by which its lines may be off the path; 0: none is
+    double surface_shift = 0;   // mm by which a point of its surface is moved, at most; 0: none is
+};
+
 struct VerifiedJob {
     std::filesystem::path file;
     JobVerdict verdict;
     // What speaks against its signature file, or that the cell file requires one. Not in the verdict, which is written
     // before anybody signs the job.
     std::string signature_fault = {};
+    std::optional<WrittenView> view = {};  // of one job file whose program could be replayed
 };
 
 using VerifyAnswer = std::vector<VerifiedJob>;
@@ -43,6 +52,8 @@ struct ProofKeeping {
     // program cannot be replayed.
     Bytes* stock_left = nullptr;
     std::filesystem::path cache = {};  // for kept_deviation.h; empty: none
+    // If it is not nullptr, it becomes path and surface for viewers, where the program could be replayed.
+    std::optional<CarvedView>* view = nullptr;
 };
 
 // The verdict on a job that parse_job took. Faults are findings. Throws Cancelled. A part but the first is replayed
@@ -50,8 +61,9 @@ struct ProofKeeping {
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
                      const std::string& program_version, const Context& context, const ProofKeeping& keeping = {});
 
-// One job file. Without a cell file, that of the project in whose folder "jobs" it lies. Throws what read_job and
-// parse_job throw, what read_cell throws, and InputError (use) without a cell file.
+// One job file; "B.carved.glb" is written beside "B.qjob", a file there replaced. Without a cell file, that of the
+// project in whose folder "jobs" it lies. Throws what read_job and parse_job throw, what read_cell throws, and
+// InputError (use) without a cell file.
 VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std::filesystem::path>& cell_file,
                        const std::string& program_version, const TrustedKeys& trusted, const Context& context);
 

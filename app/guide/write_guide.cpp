@@ -67,18 +67,20 @@ WrittenGuide write_guide(OpenProject& project, const std::string& program_versio
     write_file(folder / "guide.html", html);
     write_file(folder / "guide.pdf", pdf);
     write_animation(project, folder / "guide.glb", program_version, context);
-    WrittenGuide written{segmentation.pieces.size(), joints.joints.size(), joints.assembly.steps.size(), {}, {}};
+    WrittenGuide written{std::move(joints), {}, {}};
     for (const char* name : {"guide.html", "guide.pdf", "guide.glb"}) written.files.push_back(folder / name);
-    for (const AssemblyStep& step : joints.assembly.steps) {
+    for (const AssemblyStep& step : written.joints.assembly.steps) {
         if (!must_be_held(step)) continue;
-        for (const std::size_t p : step.moved) written.held.push_back(joints.pieces[p]);
+        for (const std::size_t p : step.moved) written.held.push_back(written.joints.pieces[p]);
     }
     return written;
 }
 
 std::vector<std::string> lines(const WrittenGuide& guide) {
-    std::vector<std::string> text{counted(guide.pieces, "piece") + ", " + counted(guide.joints, "joint") + ", " +
-                                  counted(guide.steps, "step") + "."};
+    const ProjectJoints& joints = guide.joints;
+    std::vector<std::string> text{counted(joints.pieces.size(), "piece") + ", " +
+                                  counted(joints.joints.size(), "joint") + ", " +
+                                  counted(joints.assembly.steps.size(), "step") + "."};
     for (const fs::path& file : guide.files) text.push_back(file.string());
     if (!guide.held.empty()) {
         text.push_back("To be held, for no glued face holds them at first: " + list_of_pieces(guide.held) + ".");

@@ -5,19 +5,17 @@
 
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/engine/open_project.h"
+#include "app/jobs/project_joints.h"
 
 namespace qchopper {
 
 struct WrittenGuide {
-    std::size_t pieces = 0;
-    std::size_t joints = 0;
-    std::size_t steps = 0;
+    ProjectJoints joints;
     std::vector<std::filesystem::path> files;
     std::vector<std::string> held;  // pieces that have to be held when they are moved, for nothing holds them yet
 };

@@ -96,6 +96,8 @@ std::vector<ProofFigure> surface_figures(const ReplayReport& report, bool leaves
                            points(left.not_allowed_mm2()), "%", 2});
         figures.push_back({"not_allowed_cm2", "surface given up for them", left.not_allowed_mm2() / 100, "cm2", 1});
     }
+    figures.push_back({"median_leftover_mm", "median of the foam left on it, by area", left.median, "mm", 2});
+    figures.push_back({"leftover_99_mm", "foam left on 99 % of it, at most", left.percentile_99, "mm", 2});
     figures.push_back({"max_leftover_mm", "largest leftover on the reachable surface", left.largest, "mm", 2});
     figures.push_back(
         {"leftover_cm3", "foam that stays around the piece", report.volumes.leftover_mm3 * 1e-3, "cm3", 1});

@@ -6,7 +6,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,10 +13,6 @@
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
-
-// The number of the colour of each triangle, as the picture has them: from the deepest gouge to most foam, the last one
-// is of what is given up. Arguments as of deviation_picture.
-std::vector<std::uint8_t> deviation_classes(std::span<const float> deviation, const std::vector<bool>& is_given_up);
 
 // One value (mm) per triangle: positive where foam stays, negative where the piece was cut into; and whether the
 // program gives it up, empty: none. Preconditions: the mesh has a triangle, one value per triangle.

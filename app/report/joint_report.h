@@ -17,7 +17,8 @@ std::vector<std::string> joint_lines(const ProjectJoints& joints);
 
 // {joints, seam_mm, visible_seam_mm, longest_chain}
 nlohmann::ordered_json joints_json(const ProjectJoints& joints);
-// A list of steps.
+// A list of steps, and its key.
+constexpr const char* assembly_key = "assembly";
 nlohmann::ordered_json assembly_json(const ProjectJoints& joints);
 
 }  // namespace qchopper

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/command_line_text.h"
+#include "app/report/joint_report.h"
 #include "app/report/report_json.h"
 #include "base/text.h"
 #include "segment/import/inspect.h"
@@ -27,9 +28,9 @@ void fields(V& v, T& state) {
 template <class V, Of<WrittenGuide> T>
 void fields(V& v, T& guide) {
     v.constant("schema", "qchopper-guide-1", nullptr);
-    v("pieces", guide.pieces);
-    v("joints", guide.joints);
-    v("steps", guide.steps);
+    v.written("pieces", [&] { return guide.joints.pieces.size(); });
+    v.written("joints", [&] { return guide.joints.joints.size(); });
+    v.written("steps", [&] { return guide.joints.assembly.steps.size(); });
     v("files", guide.files);
     v("held", guide.held);
 }
@@ -96,7 +97,9 @@ Document document(const WrittenSample& sample) {
 }
 
 Document document(const WrittenGuide& guide) {
-    return compose(json_of(guide));
+    nlohmann::ordered_json json = json_of(guide);
+    json[assembly_key] = assembly_json(guide.joints);
+    return compose(std::move(json));
 }
 
 namespace {

@@ -254,7 +254,7 @@ Document document(const PreparedProject& prepared) {
               {"reviews", json_of(p.review.value_or(SetupReview()).cuts)},
               {"pieces", list_of(prepared.pieces, piece_in_cell)},
               {"joints", joints_json(prepared.joints)},
-              {"assembly", assembly_json(prepared.joints)},
+              {assembly_key, assembly_json(prepared.joints)},
               {"fragments", json_of(p.fragment_list)},
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};

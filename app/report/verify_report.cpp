@@ -12,6 +12,14 @@
 #include "base/text.h"
 
 namespace qchopper {
+
+template <class V, Of<WrittenView> T>
+void fields(V& v, T& view) {
+    v("file", view.file);
+    v("path_tolerance_mm", view.path_tolerance);
+    v("surface_shift_mm", view.surface_shift);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -47,6 +55,9 @@ Json job_json(const VerifiedJob& job) {
               {"notes", v.notes},
               {"signature_fault", job.signature_fault},
               {"verdict", verdict_file(job.file).string()}};
+    if (job.view) {
+        json["view"] = json_of(*job.view);
+    }
     add_time(json, v.time);
     return json;
 }
@@ -56,6 +67,14 @@ void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
     for (std::size_t i = 0; i < shown; ++i) text.push_back("  " + describe(verdict.findings[i]));
     const std::size_t more = verdict.findings.size() - shown + verdict.findings_left_out;
     if (more > 0) text.push_back("  and " + counted(more, "more finding"));
+}
+
+std::string view_line(const WrittenView& view) {
+    std::string text = view.file.string() + ": path and surface for a viewer of GLB";
+    if (view.path_tolerance > 0) text += ", the path within " + significant(view.path_tolerance, 2) + " mm";
+    if (view.surface_shift > 0)
+        text += ", points of the surface moved by up to " + significant(view.surface_shift, 2) + " mm";
+    return text + ".";
 }
 
 std::vector<MachineTime> times_of(const VerifyAnswer& answer) {
@@ -80,6 +99,7 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
         add_findings(job.verdict, text);
         if (!job.signature_fault.empty()) text.push_back("  Signature REFUSED: " + job.signature_fault + ".");
         for (const std::string& note : job.verdict.notes) text.push_back("  Note: " + note + ".");
+        if (job.view) text.push_back("  " + view_line(*job.view));
     }
     if (const std::string line = time_line(times_of(answer)); !line.empty()) text.push_back(line);
     const auto positive = static_cast<std::size_t>(

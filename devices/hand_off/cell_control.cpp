@@ -209,18 +209,26 @@ class Control {
             const HandOffInput input = read_status_block(bus_);
             if (input.status) end_.status = *input.status;
             if (input.status && note_answer(frame, is_pending)) return;
+            if (is_pending && !is_about(end_.status, frame)) {
+                end_.why = "another command came to the cell while " + in_words(command) +
+                           " waited for consent; whether that is still asked is not known";
+                return;
+            }
             has_stale_number_ = command == CellCommand::claim && has_refused_number(bad_frames_, end_.status);
             if (has_stale_number_) return;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
     }
 
+    // Whether the acknowledgement in STATUS is that of a frame. It has room for one, that of the latest command.
+    bool is_about(const Status& status, const Command& frame) const {
+        return status.ack_owner == owner_ && status.ack_seq == frame.seq && status.ack_command == frame.command;
+    }
+
     // True once the cell has answered.
     bool note_answer(const Command& frame, bool& is_pending) {
         const Status& status = end_.status;
-        if (status.ack_owner != owner_ || status.ack_seq != frame.seq || status.ack_command != frame.command) {
-            return false;
-        }
+        if (!is_about(status, frame)) return false;
         if (frame.command == CellCommand::claim && !is_answer_to_claim(status, frame.epoch)) return false;
         if (status.ack_result == AckResult::pending && !is_pending) {
             is_pending = true;

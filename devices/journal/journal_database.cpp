@@ -270,7 +270,7 @@ void make_tables(Database& database, const JournalCell& cell, const JournalHead&
 
 std::string add_row(Database& database, const JournalRow& row, const std::string& hash_before) {
     const std::string text = text_of(row.event);
-    const std::string hash = chained(hash_before, row.number, row.unix_ms, name(row.event.kind), text);
+    std::string hash = chained(hash_before, row.number, row.unix_ms, name(row.event.kind), text);
     Statement statement(database, "INSERT INTO event VALUES(?, ?, ?, ?, ?, ?)");
     statement.set(1, row.number);
     statement.set(2, static_cast<std::int64_t>(row.unix_ms));

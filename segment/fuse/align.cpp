@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "segment/fuse/median.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 
@@ -114,13 +115,6 @@ std::vector<Pair> pairs_of(const std::vector<Known>& all, std::span<const Pose> 
     std::vector<Pair> pairs;
     for (const std::vector<Pair>& own : of_scan) pairs.insert(pairs.end(), own.begin(), own.end());
     return pairs;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 double median_residual(const std::vector<Pair>& pairs) {

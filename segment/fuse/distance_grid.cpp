@@ -18,6 +18,7 @@
 #include "base/parallel.h"
 #include "segment/mesh/marching_tetrahedra.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/triangle_tree.h"
 
 namespace qchopper {
 namespace {
@@ -67,31 +68,6 @@ struct NearTriangle {
         return std::tie(block, scan, triangle) < std::tie(o.block, o.scan, o.triangle);
     }
 };
-
-// The shares of the corners in the point of a triangle nearest to p, after C. Ericson, "Real-Time Collision Detection"
-// (2005), 5.1.5.
-std::array<double, 3> nearest_shares(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
-    const double d1 = dot(ab, p - a);
-    const double d2 = dot(ac, p - a);
-    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-    const double d3 = dot(ab, p - b);
-    const double d4 = dot(ac, p - b);
-    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-    const double d5 = dot(ab, p - c);
-    const double d6 = dot(ac, p - c);
-    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-    const double va = d3 * d6 - d5 * d4;
-    const double along = (d4 - d3) + (d5 - d6);
-    if (va <= 0 && d4 >= d3 && d5 >= d6) return {0, 1 - (d4 - d3) / along, (d4 - d3) / along};
-    const double whole = va + vb + vc;
-    return {va / whole, vb / whole, vc / whole};
-}
 
 // Of one scan at the points of a block: the distance of the nearest triangle so far.
 struct BlockDistances {
@@ -308,8 +284,8 @@ class Lattice {
 
     static void add_distance(const NearFace& face, Vec3 p, std::size_t index, BlockDistances& own) {
         const auto& [a, b, c] = face.corner;
-        const std::array<double, 3> share = nearest_shares(p, a.point, b.point, c.point);
-        const Vec3 apart = p - (share[0] * a.point + share[1] * b.point + share[2] * c.point);
+        const auto [point, share] = nearest_of_triangle(p, {a.point, b.point, c.point});
+        const Vec3 apart = p - point;
         const double size = norm(apart);
         if (!(size < own.size[index])) return;
         const Vec3 normal = share[0] * a.normal + share[1] * b.normal + share[2] * c.normal;

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "segment/fuse/align.h"
 #include "segment/fuse/distance_grid.h"
+#include "segment/fuse/median.h"
 #include "segment/fuse/scan_list.h"
 #include "segment/fuse/scan_surface.h"
 #include "segment/io/read_mesh.h"
@@ -30,12 +31,6 @@ constexpr std::size_t min_pairs = 30;        // fewer leave the pose of a scan f
 constexpr double misfit = 3;                 // medians
 constexpr double least_shell = 0.01;         // of the area of the largest
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 // The median length of the edges of a mesh that came without a grid.
 double edge_length(const TriangleMesh& mesh) {
     std::vector<double> lengths;
@@ -43,7 +38,7 @@ double edge_length(const TriangleMesh& mesh) {
         const std::array<Vec3, 3> corner = corners_of(mesh, t);
         for (std::size_t i = 0; i < 3; ++i) lengths.push_back(norm(corner[(i + 1) % 3] - corner[i]));
     }
-    return lengths.empty() ? 0 : median(std::move(lengths));
+    return median(std::move(lengths));
 }
 
 struct ReadScan {
@@ -107,6 +102,17 @@ void describe_scans(const std::vector<ScanSurface>& surfaces, const Alignment& a
     }
 }
 
+double missing_share(const TriangleMesh& mesh) {
+    Vec3 sum;
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 one = area_vector(mesh, t);
+        sum = sum + one;
+        area += norm(one);
+    }
+    return area > 0 ? norm(sum) / area : 0;
+}
+
 }  // namespace
 
 Fused fuse(const fs::path& list, const FuseOptions& options, const Context& context) {
@@ -148,6 +154,7 @@ Fused fuse(const fs::path& list, const FuseOptions& options, const Context& cont
     }
     report.shells_left_out = keep_large_shells(fused.mesh);
     report.open_edges = edges(fused.mesh).faults.open;
+    report.missing_share = missing_share(fused.mesh);
     return fused;
 }
 

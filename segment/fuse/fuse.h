@@ -43,6 +43,9 @@ struct FuseReport {
     double residual = 0;              // median of all pairs
     std::size_t shells_left_out = 0;  // small ones
     std::size_t open_edges = 0;
+    // What closes the mesh has at least this share of its area: the size of the sum of its area vectors, which is 0 for
+    // a closed surface, over the sum of their sizes.
+    double missing_share = 0;
 };
 
 struct Fused {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "segment/fuse/median.h"
 #include "segment/mesh/connectivity/edges.h"
 
 namespace qchopper {
@@ -65,10 +66,7 @@ double grid_spacing(const RangeScan& scan) {
             lengths.push_back(norm(scan.points[corner[0]] - scan.points[corner[other]]));
         }
     });
-    if (lengths.empty()) return 0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
+    return median(std::move(lengths));
 }
 
 TriangleMesh triangulate(const RangeScan& scan, double longest_edge) {

@@ -1,16 +1,21 @@
-// Builds the scene as a tinygltf model, which writes it. O(points + triangles); memory for some copies of the file.
+// Builds the scene as a tinygltf model, which writes it. Of coloured scenes too, so that the library is seen by one
+// source; lines are pairs of indices there, so that one primitive holds all of a group. O(points + triangles +
+// colours); memory for some copies of the file.
 
 #include "segment/io/write_glb.h"
 
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
+#include "segment/io/write_coloured_glb.h"
 
 namespace qchopper {
 namespace {
@@ -38,13 +43,14 @@ int add_accessor(tinygltf::Model& model, const std::vector<Number>& numbers, int
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
-int add_positions(tinygltf::Model& model, const TriangleMesh& mesh) {
+// Precondition: there is a point.
+int add_positions(tinygltf::Model& model, const std::vector<Vec3>& points) {
     std::vector<float> numbers;
-    numbers.reserve(3 * mesh.points.size());
+    numbers.reserve(3 * points.size());
     tinygltf::Accessor bounded;
     bounded.minValues.assign(3, std::numeric_limits<float>::max());
     bounded.maxValues.assign(3, std::numeric_limits<float>::lowest());
-    for (const Vec3& p : mesh.points) {
+    for (const Vec3& p : points) {
         for (int axis = 0; axis < 3; ++axis) {
             numbers.push_back(static_cast<float>(p[axis]));
             const auto a = static_cast<std::size_t>(axis);
@@ -53,7 +59,7 @@ int add_positions(tinygltf::Model& model, const TriangleMesh& mesh) {
         }
     }
     return add_accessor(model, numbers, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                        mesh.points.size(), bounded);
+                        points.size(), bounded);
 }
 
 // Adds the triangles that are caps, or those that are not.
@@ -101,7 +107,7 @@ void add_node(tinygltf::Model& model, const GlbNode& from) {
     mesh.name = from.name;
     const int surface = add_material(model, "surface", from.surface);
     const int cap = add_material(model, "cap", from.cap);
-    const int positions = add_positions(model, *from.mesh);
+    const int positions = add_positions(model, from.mesh->points);
     add_primitive(model, mesh, *from.mesh, false, positions, surface);
     add_primitive(model, mesh, *from.mesh, true, positions, cap);
     tinygltf::Node node;
@@ -173,6 +179,71 @@ void check_size(const GlbScene& scene) {
     }
 }
 
+Bytes bytes_of(tinygltf::Model model) {
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    model = {};
+    const std::string_view text = stream.view();
+    return {text.begin(), text.end()};
+}
+
+tinygltf::Primitive primitive_of(tinygltf::Model& model, int positions, const std::vector<std::uint32_t>& indices,
+                                 int mode, const GlbColour& colour) {
+    tinygltf::Primitive primitive;
+    primitive.attributes["POSITION"] = positions;
+    primitive.indices = add_accessor(model, indices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, indices.size());
+    primitive.mode = mode;
+    primitive.material = add_material(model, colour.name, colour.colour);
+    return primitive;
+}
+
+void add_plain_node(tinygltf::Model& model, const std::string& name, tinygltf::Mesh mesh) {
+    mesh.name = name;
+    tinygltf::Node node;
+    node.name = name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.nodes[0].children.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+    model.meshes.push_back(std::move(mesh));
+}
+
+void add_coloured_mesh(tinygltf::Model& model, const ColouredGlb& scene) {
+    std::vector<std::vector<std::uint32_t>> corners(scene.colours.size());
+    for (std::size_t t = 0; t < scene.mesh->triangles.size(); ++t) {
+        const Triangle& triangle = scene.mesh->triangles[t];
+        std::vector<std::uint32_t>& of_colour = corners[scene.colour_of[t]];
+        of_colour.insert(of_colour.end(), triangle.begin(), triangle.end());
+    }
+    const int positions = add_positions(model, scene.mesh->points);
+    tinygltf::Mesh mesh;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i].empty()) continue;
+        mesh.primitives.push_back(
+            primitive_of(model, positions, corners[i], TINYGLTF_MODE_TRIANGLES, scene.colours[i]));
+    }
+    add_plain_node(model, scene.node, std::move(mesh));
+}
+
+void add_lines(tinygltf::Model& model, const GlbLines& group) {
+    std::vector<Vec3> points;
+    std::vector<std::uint32_t> ends;
+    for (const std::vector<Vec3>& line : group.lines) {
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (i > 0) {
+                const auto last = static_cast<std::uint32_t>(points.size());
+                ends.insert(ends.end(), {last - 1, last});
+            }
+            points.push_back(line[i]);
+        }
+    }
+    if (ends.empty()) return;
+    const int positions = add_positions(model, points);
+    tinygltf::Mesh mesh;
+    mesh.primitives.push_back(primitive_of(model, positions, ends, TINYGLTF_MODE_LINE, group.colour));
+    add_plain_node(model, group.node, std::move(mesh));
+}
+
 }  // namespace
 
 Bytes to_glb(const GlbScene& scene) {
@@ -184,11 +255,20 @@ Bytes to_glb(const GlbScene& scene) {
     add_root(model, scene.root);
     for (const GlbNode& node : scene.nodes) add_node(model, node);
     add_animation(model, scene);
-    std::ostringstream stream;
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    model = {};
-    const std::string_view text = stream.view();
-    return {text.begin(), text.end()};
+    return bytes_of(std::move(model));
+}
+
+Bytes to_glb(const ColouredGlb& scene) {
+    assert(scene.mesh != nullptr && !scene.mesh->triangles.empty());
+    assert(scene.colour_of.size() == scene.mesh->triangles.size());
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = scene.generator;
+    model.buffers.resize(1);
+    add_root(model, "setup");
+    add_coloured_mesh(model, scene);
+    for (const GlbLines& group : scene.lines) add_lines(model, group);
+    return bytes_of(std::move(model));
 }
 
 }  // namespace qchopper

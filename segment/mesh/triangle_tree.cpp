@@ -227,29 +227,54 @@ bool TriangleTree::is_any_nearer(const TriangleMesh& mesh, Vec3 p, double distan
     return false;
 }
 
-Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {
+namespace {
+
+// make(point, share of a, of b, of c): what is made of the point alone costs no shares.
+template <class Make>
+auto nearest_with(Vec3 p, const std::array<Vec3, 3>& triangle, const Make& make) {
     const auto& [a, b, c] = triangle;
     const Vec3 ab = b - a;
     const Vec3 ac = c - a;
     const double d1 = dot(ab, p - a);
     const double d2 = dot(ac, p - a);
-    if (d1 <= 0 && d2 <= 0) return a;
+    if (d1 <= 0 && d2 <= 0) return make(a, 1, 0, 0);
     const double d3 = dot(ab, p - b);
     const double d4 = dot(ac, p - b);
-    if (d3 >= 0 && d4 <= d3) return b;
+    if (d3 >= 0 && d4 <= d3) return make(b, 0, 1, 0);
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return a + (d1 / (d1 - d3)) * ab;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) {
+        const double t = d1 / (d1 - d3);
+        return make(a + t * ab, 1 - t, t, 0);
+    }
     const double d5 = dot(ab, p - c);
     const double d6 = dot(ac, p - c);
-    if (d6 >= 0 && d5 <= d6) return c;
+    if (d6 >= 0 && d5 <= d6) return make(c, 0, 0, 1);
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return a + (d2 / (d2 - d6)) * ac;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) {
+        const double t = d2 / (d2 - d6);
+        return make(a + t * ac, 1 - t, 0, t);
+    }
     const double va = d3 * d6 - d5 * d4;
     const double along = (d4 - d3) + (d5 - d6);
-    if (va <= 0 && d4 >= d3 && d5 >= d6 && along > 0) return b + ((d4 - d3) / along) * (c - b);
+    if (va <= 0 && d4 >= d3 && d5 >= d6 && along > 0) {
+        const double t = (d4 - d3) / along;
+        return make(b + t * (c - b), 0, 1 - t, t);
+    }
     const double sum = va + vb + vc;
-    if (!(sum > 0)) return a;
-    return a + (vb / sum) * ab + (vc / sum) * ac;
+    if (!(sum > 0)) return make(a, 1, 0, 0);
+    return make(a + (vb / sum) * ab + (vc / sum) * ac, va / sum, vb / sum, vc / sum);
+}
+
+}  // namespace
+
+NearestOfTriangle nearest_of_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {
+    return nearest_with(p, triangle, [](Vec3 point, double a, double b, double c) {
+        return NearestOfTriangle{point, {a, b, c}};
+    });
+}
+
+Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {
+    return nearest_with(p, triangle, [](Vec3 point, double, double, double) { return point; });
 }
 
 }  // namespace qchopper

@@ -30,7 +30,13 @@ inline bool do_meet(const FloatBox& a, const FloatBox& b) {
     return meets != 0;
 }
 
-// The point of a triangle that is closest to p. Of a degenerate triangle some point, perhaps not the closest.
+// The point of a triangle that is closest to p, and the shares of its corners in it: a share of a corner that the point
+// does not lie towards is exactly 0. Of a degenerate triangle some point, perhaps not the closest.
+struct NearestOfTriangle {
+    Vec3 point;
+    std::array<double, 3> share{};
+};
+NearestOfTriangle nearest_of_triangle(Vec3 p, const std::array<Vec3, 3>& triangle);
 Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle);
 
 struct TriangleTree {

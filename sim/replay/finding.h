@@ -50,7 +50,7 @@ enum class FindingKind : std::uint8_t {
     gouge_volume,
     given_up,       // surface that tools of the cell reach and those that the program uses do not
     leftover,       // too small a share of the reachable surface is within tolerance
-    standing_foam,  // foam beside the piece that the tools reach
+    standing_foam,  // foam beside the piece where the tools of the program come to
     missing_hole,
     shifted_hole,
     hole_depth,     // too deep, or not deep enough

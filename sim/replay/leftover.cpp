@@ -48,8 +48,8 @@ struct Within {
     const std::vector<float>& gouge;
 };
 
-double percentile(std::vector<std::pair<float, float>>& by_distance, double share) {
-    std::sort(by_distance.begin(), by_distance.end());
+// Precondition: sorted.
+double percentile(const std::vector<std::pair<float, float>>& by_distance, double share) {
     double whole = 0;
     for (const auto& [distance, area] : by_distance) whole += area;
     double sum = 0;
@@ -64,11 +64,13 @@ double percentile(std::vector<std::pair<float, float>>& by_distance, double shar
 void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const std::vector<Judged>& judged,
             const Reaches& given_up, const Within& within) {
     std::vector<std::pair<float, float>> by_distance;
+    std::vector<std::uint32_t> points(figures.distance.size(), 0);  // of a triangle, all of one area
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Sample& s = samples[i];
         const Judged& j = judged[i];
         figures.area_mm2 += s.area;
-        figures.distance[s.triangle] = std::max(figures.distance[s.triangle], j.distance);
+        figures.distance[s.triangle] += j.distance;
+        ++points[s.triangle];
         if (!j.by) {
             figures.largest_unreachable = std::max<double>(figures.largest_unreachable, j.distance);
             continue;
@@ -85,6 +87,11 @@ void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const 
         }
         if (j.distance > figures.largest) figures.largest = j.distance, figures.at = s.point;
     }
+    for (std::size_t t = 0; t < points.size(); ++t) {
+        if (points[t] > 0) figures.distance[t] /= static_cast<float>(points[t]);
+    }
+    std::sort(by_distance.begin(), by_distance.end());
+    figures.median = percentile(by_distance, 0.5);
     figures.percentile_99 = percentile(by_distance, 0.99);
 }
 

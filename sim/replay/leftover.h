@@ -36,11 +36,12 @@ struct GivenUp {
 };
 
 struct LeftoverFigures {
-    double area_mm2 = 0;               // of the target without its base
-    double reachable_mm2 = 0;          // by tools that are allowed, what is given up included
-    double within_mm2 = 0;             // of the reachable surface, within tolerance
-    double largest = 0;                // on the reachable surface that is not given up
-    double percentile_99 = 0;          // of it, by area
+    double area_mm2 = 0;       // of the target without its base
+    double reachable_mm2 = 0;  // by tools that are allowed, what is given up included
+    double within_mm2 = 0;     // of the reachable surface, within tolerance
+    double largest = 0;        // on the reachable surface that is not given up
+    double median = 0;         // of it, by area
+    double percentile_99 = 0;
     std::vector<GivenUp> given_up;     // by the program: the largest first
     std::vector<GivenUp> not_allowed;  // with tools that the setup leaves out: beside the reachable surface
     double given_up_mm2() const { return sum_of(given_up); }
@@ -48,7 +49,7 @@ struct LeftoverFigures {
     static double sum_of(const std::vector<GivenUp>& surface);
     double largest_unreachable = 0;
     Vec3 at;                         // where the largest is
-    std::vector<float> distance;     // per triangle, the largest of its points; 0 of the base
+    std::vector<float> distance;     // per triangle, the mean of its points; 0 of the base
     std::vector<bool> is_reachable;  // per triangle: one of its points is
     std::vector<bool> is_given_up;   // likewise
 };

@@ -24,14 +24,14 @@
 namespace qchopper {
 
 struct ReplayOptions {
-    double cell = 0.25;           // of the foam; figures are claimed up to 0.25
-    bool is_worst = true;         // corners that may be rounded are
-    double gouge_floor = 0.01;    // gouges up to this are not told from none
-    double max_gouge = 0.25;      // a deeper one is a finding
-    double max_beyond_mm3 = 1;    // more volume gouged deeper than that is a finding
-    double min_share = 0.995;     // of the reachable surface within tolerance
-    double max_given_up = 0.005;  // of the surface, where nobody ordered it
-    double max_standing_mm3 = 100;
+    double cell = 0.25;              // of the foam; figures are claimed up to 0.25
+    bool is_worst = true;            // corners that may be rounded are
+    double gouge_floor = 0.01;       // gouges up to this are not told from none
+    double max_gouge = 0.25;         // a deeper one is a finding
+    double max_beyond_mm3 = 1;       // more volume gouged deeper than that is a finding
+    double min_share = 0.995;        // of the reachable surface within tolerance
+    double max_given_up = 0.005;     // of the surface, where nobody ordered it
+    double max_standing_mm3 = 2000;  // of foam that touches the piece little; what lies on its surface is in the shares
     LeftoverOptions leftover;
     double volume_cell = 0.5;
 };
@@ -49,7 +49,8 @@ struct ReplayReport {
     MillingFigures milling;
     PathTime time;
     std::vector<MachineTime> account;
-    // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
+    // Per triangle of the target: mean leftover above 0, deepest gouge below; of the base 0. Leftover only after the
+    // last part.
     std::vector<float> deviation;
     StockRecord left;  // after every part but the last
     // Of what is not given up.

@@ -161,7 +161,7 @@ class Measuring {
           holes_(scene),
           known_(scene, closing_cell) {
         for (std::size_t d = 0; d < milling_orientations(scene); ++d) {
-            for (const Closing* closing : known_.along(d, allowed_tools(scene), context)) closings_.push_back(closing);
+            for (const Closing* closing : known_.along(d, tools_along(scene, d), context)) closings_.push_back(closing);
         }
         by_row_.resize(static_cast<std::size_t>(grid_.rows));
         for (std::uint32_t t = 0; t < scene.target->triangles.size(); ++t) {
@@ -188,7 +188,7 @@ class Measuring {
     TriangleTree tree_;
     HoleSpace holes_;
     Closings known_;
-    std::vector<const Closing*> closings_;  // of all that tools of the cell reach
+    std::vector<const Closing*> closings_;  // of what the tools of the program reach
     std::vector<std::vector<std::uint32_t>> by_row_;
 };
 
@@ -217,8 +217,8 @@ bool Measuring::stands(Vec3 p) const {
     const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const Closing* closing) {
         const SurfaceMap& map = closing->map;
         const Vec3 q = apply_inverse(map.frame_in_setup, p);
-        // Above the closing by more than what its cells do not know.
-        return q.z > map.at(q.x, q.y) + closing_cell && map.distance_above(q, 10) == 0;
+        // Above the closing, its cells beside that of q included, by more than what cells do not know.
+        return q.z > map.highest_about(q.x, q.y) + closing_cell;
     });
     return is_reached && !tree_.is_any_nearer(*scene_.target, p, options_.standing);
 }
@@ -239,7 +239,7 @@ void Measuring::add_line(double x, double y, const std::vector<Dexel>& target, V
         if (i.low >= i.high) continue;
         sum.leftover_mm3 += area * (i.high - i.low);
         parts({i.low, i.high}, [&](Vec3 p, double volume) {
-            if (p.z < options_.standing || !stands(p)) return;
+            if (p.z < options_.floor || !stands(p)) return;
             sum.standing_mm3 += volume;
             sum.standing_at = p;
         });

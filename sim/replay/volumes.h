@@ -16,13 +16,15 @@ struct VolumeOptions {
     double around = 12;             // foam so far from the piece's projection counts: two radii of the largest tool
     double gouge_tolerance = 0.25;  // what is cut out less deep than this is not counted in beyond_mm3
     double standing = 1.25;         // foam so far from the piece, and reachable, stands there by mistake
+    double floor = 2;               // foam lower than this is left on the floor: roughing leaves its allowance there
 };
 
 struct VolumeFigures {
     double leftover_mm3 = 0;  // of foam outside of the target, above z = 0, within `around` of its projection
     double gouge_mm3 = 0;     // of the target that was removed
     double beyond_mm3 = 0;    // of it, what lies deeper in the target than the tolerance
-    double standing_mm3 = 0;  // of leftover_mm3, what lies farther from the target than `standing` where tools come to
+    double standing_mm3 = 0;  // of leftover_mm3, what lies farther from the target than `standing` and higher than
+                              // `floor`, where the tools of the program come to
     Vec3 standing_at;         // a point of it
 };
 

@@ -66,6 +66,7 @@ HEAVY = {
     "Beast": (r"boost/(beast|asio)/", 1),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),
+    "OpenSSL": (r"openssl/", 3),
     "SQLite": (r"sqlite3(ext)?\.h$", 1),
     "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),

@@ -166,3 +166,12 @@ async function keepFailure(name, pages, server, error) {
   }
   writeFileSync(join(folder, "server.txt"), `${error.stack}\n\n${server?.log ?? ""}`);
 }
+
+// The folder for pictures of docs/user/console.md (scripts/console pictures); undefined: none are asked for.
+export const pictures = process.env.CONSOLE_PICTURES;
+export const pictureSettings = pictures ? { viewport: { width: 1200, height: 720 }, deviceScaleFactor: 0.75 } : {};
+
+export async function savePicture(page, name) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  writeFileSync(join(pictures, `console-${name}.png`), await page.screenshot());
+}

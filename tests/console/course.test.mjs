@@ -10,10 +10,9 @@ import { copyFileSync, existsSync, mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
 
-import { Console, launch, openWindow, program, windowTest } from "./console.mjs";
+import { Console, launch, openWindow, pictures, pictureSettings, program, savePicture, windowTest } from "./console.mjs";
 
 const server = new Console();
-const pictures = process.env.CONSOLE_PICTURES;
 const FACES = pictures ? "30000" : "4000";
 let browser;
 let cell; // the process of the simulated cell, which outlives the server
@@ -101,8 +100,7 @@ class Keys {
   async picture(name) {
     if (!pictures) return;
     await this.page.evaluate(() => document.activeElement.blur());
-    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    writeFileSync(join(pictures, `console-${name}.png`), await this.page.screenshot());
+    await savePicture(this.page, name);
   }
 }
 
@@ -126,7 +124,7 @@ async function killAndComeBack(page) {
 }
 
 windowTest("From a scan to a carved piece and its guide by keyboard alone, with the server killed twice on the way", server, async (keep) => {
-  const settings = { viewport: { width: 1200, height: 720 }, ...(pictures ? { deviceScaleFactor: 0.75 } : {}) };
+  const settings = { viewport: { width: 1200, height: 720 }, ...pictureSettings };
   let pointers = 0;
   const watch = async (page) => {
     await page.exposeFunction("pointerUsed", () => ++pointers);
@@ -136,6 +134,7 @@ windowTest("From a scan to a carved piece and its guide by keyboard alone, with 
   const keys = new Keys(page);
 
   // Open, units, repair.
+  await keys.button("Check a.ply").waitFor();
   await keys.picture("start");
   await keys.press(keys.button("Check a.ply"));
   await keys.press(keys.button(/^mm /));

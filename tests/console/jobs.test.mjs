@@ -127,6 +127,8 @@ windowTest("The guide is made, opens in a window of its own, and is saved", serv
   const page = keep(await open("guide"));
   await page.getByRole("button", { name: "Make the guide" }).click();
   await page.getByText(/The guide is made: 2 pieces/).waitFor();
+  const step = page.getByRole("table", { name: "Steps of the assembly" }).getByRole("row").nth(1);
+  assert.match(await step.innerText(), /^1\s+(B\s+C|C\s+B)\s+(B-C|C-B)\s*$/);
   await assertAccessible(page);
   const [popup] = await Promise.all([page.waitForEvent("popup"), page.getByRole("button", { name: "Open to print" }).click()]);
   await popup.waitForURL(/\/api\/t\//);

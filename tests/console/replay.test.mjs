@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { after, before } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { assertAccessible, Console, launch, openWindow, windowTest } from "./console.mjs";
+import { assertAccessible, Console, launch, openWindow, pictures, pictureSettings, savePicture, windowTest } from "./console.mjs";
 
 const cells = fileURLToPath(new URL("../../cells", import.meta.url));
 const server = new Console();
@@ -29,7 +29,7 @@ after(async () => {
   await server.end();
 });
 
-const open = () => openWindow(browser, server, `jobs/${project}`);
+const open = () => openWindow(browser, server, `jobs/${project}`, { settings: pictureSettings });
 const figure = (page, name) => page.getByRole("table", { name: "Where the program is" }).getByRole("row", { name: new RegExp(`^${name} `) }).getByRole("cell");
 const canvas = (page, label) => page.getByRole("img", { name: label });
 
@@ -75,6 +75,12 @@ windowTest("A job is replayed by keyboard: slider, play, stages, the deviation a
   await page.waitForTimeout(400);
   assert.equal(await slider.inputValue(), paused, "it stands");
 
+  if (pictures) {
+    for (let i = 0; i < 10; ++i) await page.keyboard.press(".");
+    await region.evaluate((all) => all.scrollIntoView());
+    await page.waitForTimeout(1000); // until the stage is there
+    await savePicture(page, "replay");
+  }
   await slider.focus();
   await page.keyboard.press("End");
   assert.equal(await figure(page, "Left").innerText(), "0 s");

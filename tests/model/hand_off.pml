@@ -1,6 +1,6 @@
 /* The hand-off of jobs to a cell, in Promela: which words a PC may say of a start while commands are lost, repeated and
  * overtaken, PCs are killed, a journal loses its last rows, the cell loses power or its store or gets an older copy of it
- * back, the operator cancels, and another PC takes the cell over.
+ * back, the operator cancels, another PC takes the cell over, and the key that signed the tickets is revoked.
  *
  * docs/developer/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
  * the simulated cell (tests/sim/cell/model_test.cpp). Every property is an assertion; no property is about time. */
@@ -35,6 +35,9 @@
 #ifndef CANCELS
 #define CANCELS 0
 #endif
+#ifndef REVOKES
+#define REVOKES 0    /* 1: the cell takes signed tickets only, and the key of all of them may be revoked at any moment */
+#endif
 #ifndef EPOCHS
 #define EPOCHS 3     /* a dispatcher that would claim a higher epoch gives up */
 #endif
@@ -68,7 +71,7 @@ byte starts[3];
 
 /* Journals; the index of a dispatcher and of a job begins with 1. */
 byte j_epoch[3]; mtype:word j_word[3] = idle; byte j_store[3];
-byte kills; byte cuts; byte losses; byte cancels;
+byte kills; byte cuts; byte losses; byte cancels; bit revoked;
 #if BACKS
 byte backs; bit jc_is[3]; byte jc_epoch[3]; mtype:word jc_word[3] = idle; byte jc_store[3];   /* the copies */
 #endif
@@ -112,6 +115,12 @@ inline forget(i) { f_c[i] = no_cmd; f_p[i] = 0; f_e[i] = 0; f_j[i] = 0; f_t[i] =
 #define is_new(j) (memory[j] == unknown_job)
 #endif
 
+#if defined(MUTANT_KEY_AT_STORE)
+#define key_holds_at_start 1
+#else
+#define key_holds_at_start (!revoked)
+#endif
+
 inline grant() {
   epoch = f_e[i]; lease = f_p[i];
 #if COPIES
@@ -127,6 +136,7 @@ inline move_the_arm() {
   assert(starts[job] <= 1);                           /* a job starts once */
   assert(j_word[job] != NOT_STARTED);                 /* NOT STARTED is for ever */
   assert(lease == 0 || PCS == 1 || f_p[i] == lease);  /* nobody starts but the owner */
+  assert(!revoked);                                   /* no job of a revoked key starts */
 #ifndef MUTANT_NO_MEMORY_NO_TOKEN
   token = 0;
 #endif
@@ -138,9 +148,9 @@ inline move_the_arm() {
 
 inline obey() {
   if
-  :: MOVE(store, none, stored, is_new(f_j[i])); job = f_j[i]; token = 0
+  :: MOVE(store, none, stored, is_new(f_j[i]) && !revoked); job = f_j[i]; token = 0
   :: MOVE(prepare, stored, prepared, same); tokens++; token = tokens
-  :: MOVE(start, prepared, running, same && token_holds && is_new(job)); move_the_arm()
+  :: MOVE(start, prepared, running, same && token_holds && is_new(job) && key_holds_at_start); move_the_arm()
 #ifdef MUTANT_NO_MEMORY_NO_TOKEN
   :: (f_c[i] == start && state == ended && same) -> state = running; move_the_arm()
 #endif
@@ -207,6 +217,9 @@ end:
   :: atomic { state == running -> state = ended }
   :: atomic { lease != 0 -> lease = 0; if :: state == prepared -> state = stored; token = 0 :: else -> skip fi }
   :: atomic { cuts < CUTS -> cuts++; cut_power() }
+#if REVOKES
+  :: atomic { !revoked -> revoked = 1 }
+#endif
 #if LOSSES
   :: atomic { losses < LOSSES -> losses++; cut_power(); lose_store() }
 #endif

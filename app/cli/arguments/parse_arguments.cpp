@@ -562,8 +562,10 @@ struct Parser {
         c->add_option("JOURNAL", journal_jobs.journals, "folders, or names in the state folder (all)");
         c->add_option("--since", journal_jobs.since,
                       "only jobs of this day or time and later, and open ones: 2026-11-22, in UTC");
-        c->add_flag("--csv", journal_jobs.is_csv, "comma-separated values, a line for each job, without sums");
+        CLI::Option* csv =
+            c->add_flag("--csv", journal_jobs.is_csv, "comma-separated values, a line for each job, without sums");
         add_common(c, common, [this] { common.command = journal_jobs; });
+        csv->excludes("--json");
     }
 
     void add_journal_export(CLI::App* journal) {

@@ -1,5 +1,6 @@
 // A read of STATUS twice a second; while there is no connection, a try every two seconds. The connection for Hold is
-// tried every second, so that a Hold finds it open.
+// tried every second, so that a Hold finds it open. A command has a connection of its own: Resume and Clear wait for
+// the person at the cell, and neither the reading nor a Stop may wait for them.
 
 #include "app/console/cells/cell_line.h"
 
@@ -90,7 +91,6 @@ void CellLine::read(Contact& over) const {
 }
 
 void CellLine::look() {
-    const std::lock_guard lock(reading_);
     read(reader_);
     const std::lock_guard showing(showing_);
     take(reader_->status, view_);
@@ -171,8 +171,8 @@ WorkerAnswer CellLine::hold() {
 }
 
 WorkerAnswer CellLine::command(const std::string& action, const std::string& job) {
-    const std::lock_guard lock(reading_);
-    return send(reader_, action, job);
+    Contact own;
+    return send(own, action, job);
 }
 
 }  // namespace qchopper

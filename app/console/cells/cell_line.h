@@ -1,4 +1,5 @@
-// The connections of the console to one cell: one reads its status, the other one is kept for Hold alone.
+// The connections of the console to one cell: one reads its status, one is kept for Hold alone, and each other command
+// has one of its own.
 //
 // Functions may be called from any thread (tests/app/console/cell_line_test.cpp).
 
@@ -58,9 +59,8 @@ class CellLine {
     CellView view_;
     std::optional<std::chrono::steady_clock::time_point> read_at_;
 
-    std::mutex reading_;  // of the connection for status and commands
-    Contact reader_;
-    std::mutex holding_;  // of the one for Hold
+    Contact reader_;  // of the thread that watches
+    std::mutex holding_;
     Contact holder_;
 
     std::mutex waiting_;

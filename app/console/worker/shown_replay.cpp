@@ -10,7 +10,7 @@
 #include "app/display/display_format.h"
 #include "app/display/display_path.h"
 #include "app/display/make_display.h"
-#include "app/pictures/deviation_picture.h"
+#include "app/pictures/deviation_colours.h"
 #include "app/store/caches/cache_file.h"
 #include "base/files/gzip.h"
 #include "base/json_fields.h"

@@ -13,6 +13,7 @@ namespace qchopper {
 namespace {
 
 constexpr int digits = 3;
+constexpr double most_missing = 0.1;  // of more repair makes no solid
 
 // What the document says beside the report itself.
 struct WrittenMesh {
@@ -62,6 +63,7 @@ void fields(V& v, T& mesh) {
     v("voxel", report.voxel);
     v.written("faces", [&] { return mesh.fused.mesh.triangles.size(); });
     v("open_edges", report.open_edges);
+    v("missing_share", report.missing_share);
     v("shells_left_out", report.shells_left_out);
 }
 
@@ -83,7 +85,13 @@ std::vector<std::string> lines(const Fused& fused, const std::filesystem::path& 
                    significant(report.voxel, digits) + ", " + counted(report.open_edges, "open edge") +
                    (report.shells_left_out > 0 ? ", " + counted(report.shells_left_out, "small shell") + " left out"
                                                : std::string()));
-    text.push_back("Next: qchopper repair " + shell_word(out) + " -o " + shell_word(solid_name(out)));
+    if (report.missing_share > most_missing) {
+        text.push_back("The scans do not go around the specimen: closing the mesh takes at least " +
+                       fixed(100 * report.missing_share, 0) + " % of its area. Scan the other sides too");
+        text.push_back("Next: qchopper inspect " + shell_word(out));
+    } else {
+        text.push_back("Next: qchopper repair " + shell_word(out) + " -o " + shell_word(solid_name(out)));
+    }
     return text;
 }
 

@@ -42,9 +42,10 @@ bool is_held(const StraightDownQuestion& question, Vec3 tip_in_cell) {
 bool is_held(const StraightDownQuestion& question, const Box& box) {
     const Vec3 size = box.max - box.min;
     for (int k = 0; k < points * points * points; ++k) {
-        const Vec3 share = 1.0 / (points - 1) *
-                           Vec3{static_cast<double>(k % points), static_cast<double>(k / points % points),
-                                static_cast<double>(k / (points * points))};
+        const int layer = k / (points * points);
+        const Vec3 share =
+            1.0 / (points - 1) *
+            Vec3{static_cast<double>(k % points), static_cast<double>(k / points % points), static_cast<double>(layer)};
         const Vec3 tip = box.min + Vec3{share.x * size.x, share.y * size.y, share.z * size.z};
         if (!is_held(question, tip)) return false;
     }

@@ -78,9 +78,10 @@ std::string proof_of(const ProgramInput& input) {
     }
     html += table(rows);
     if (input.deviation_picture.empty()) return html;
-    return html + figure({"deviation.png", deviation_picture_width, deviation_picture_height},
-                         "The piece as the replay left it, coloured by its deviation from the piece as ordered; yellow "
-                         "is given up.");
+    return html +
+           figure({"deviation.png", deviation_picture_width, deviation_picture_height},
+                  "The piece as the replay left it, coloured by its deviation from the piece as ordered: of each "
+                  "triangle the mean of the foam left, or the deepest gouge; yellow is given up.");
 }
 
 // Where the machine time goes: one row for each kind of operation and tool.

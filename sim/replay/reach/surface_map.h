@@ -24,6 +24,8 @@ struct SurfaceMap {
         height;  // at the centres of cells, row by row; no_surface: nothing is there, -no_surface: not known
     bool is_limited = false;  // holder or spindle keep the tool higher somewhere
     double at(double x, double y) const;
+    // The greatest height of the cell of a point and of the eight beside it; outside of the map nothing is there.
+    double highest_about(double x, double y) const;
     // Distance from a point of the frame to the nearest point above the surface, at most `most`; cells count at their
     // centres.
     double distance_above(Vec3 point, double most) const;

@@ -158,6 +158,7 @@ TEST_F(CellCommands, TheJobsOfTheJournalAreListedExportedAndStayKnown) {
     // The same job, in the same words, as journal show has it.
     const Json shown = Json::parse(run({"journal", "show", "--json"}, false).out)["journals"][0];
     EXPECT_EQ(shown["jobs"][0], listed["jobs"][0]);
+    EXPECT_EQ(run({"journal", "jobs", "--csv", "--json"}, false).code, exit_use);
     const std::string csv = run({"journal", "jobs", "--csv"}, false).out;
     EXPECT_TRUE(csv.starts_with("job_id,sha256,file,")) << csv;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2) << csv;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/cli/exit_code.h"
 #include "app/store/project_folder.h"
@@ -30,6 +31,13 @@ TEST_F(GuideCommand, WritesThreeFilesWithTheSameBytesEachTime) {
     EXPECT_EQ(document["schema"], "qchopper-guide-1");
     EXPECT_EQ(document["pieces"], 3);
     EXPECT_EQ(document["steps"], 2);
+    std::set<std::string> put_together;
+    for (const auto& step : document["assembly"]) {
+        for (const char* side : {"moved", "standing"}) {
+            for (const auto& piece : step[side]) put_together.insert(piece.get<std::string>());
+        }
+    }
+    EXPECT_EQ(put_together.size(), 3) << document["assembly"];
     const auto before = program::contents(project);
     for (const auto& file : document["files"]) EXPECT_TRUE(fs::exists(folder.path / file.get<std::string>())) << file;
     EXPECT_NE(program::bytes_in(project / "guide.html").find("Step 2 of 2"), std::string::npos);

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <tiny_gltf.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -107,6 +111,48 @@ struct VerifyCommand : ::testing::Test {
         const fs::path project = folder.path / "p.qch" / "project.json";
         program::put(project, replaced(program::bytes_in(project), to_hex(sha256(before)), to_hex(sha256(written))));
     }
+    // Its lines are as long as the path of the proof, less what it goes from and to home, and it has a colour for what
+    // is within tolerance.
+    static void expect_view(const fs::path& file, const json& figures) {
+        const Bytes bytes = read_file(file);
+        EXPECT_LT(bytes.size(), 12'000'000U);
+        tinygltf::Model model;
+        std::string errors;
+        std::string warnings;
+        ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model, &errors, &warnings, bytes.data(),
+                                                              static_cast<unsigned>(bytes.size())))
+            << errors;
+        double length = 0;
+        for (const tinygltf::Mesh& mesh : model.meshes) {
+            if (mesh.primitives[0].mode == TINYGLTF_MODE_LINE) length += length_of_lines(model, mesh.primitives[0]);
+        }
+        const auto path =
+            std::find_if(figures.begin(), figures.end(), [](const json& f) { return f["key"] == "path_m"; });
+        ASSERT_NE(path, figures.end());
+        EXPECT_NEAR(length / 1000, (*path)["value"].get<double>(), 0.03 * length / 1000);
+        EXPECT_EQ(model.nodes[1].name, "piece as left");
+        const auto is_fine = [](const tinygltf::Material& m) { return m.name == "to 0.3"; };
+        EXPECT_TRUE(std::any_of(model.materials.begin(), model.materials.end(), is_fine));
+    }
+    static double length_of_lines(const tinygltf::Model& model, const tinygltf::Primitive& lines) {
+        const auto data = [&](int accessor) {
+            const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(
+                model.accessors[static_cast<std::size_t>(accessor)].bufferView)];
+            return model.buffers[0].data.data() + view.byteOffset;
+        };
+        const std::size_t count = model.accessors[static_cast<std::size_t>(lines.indices)].count;
+        std::vector<std::uint32_t> ends(count);
+        std::memcpy(ends.data(), data(lines.indices), 4 * count);
+        double length = 0;
+        for (std::size_t i = 0; i + 1 < count; i += 2) {
+            std::array<float, 6> p{};
+            for (std::size_t k = 0; k < 2; ++k) {
+                std::memcpy(&p[3 * k], data(lines.attributes.at("POSITION")) + 12 * std::size_t{ends[i + k]}, 12);
+            }
+            length += std::hypot(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
+        }
+        return length;
+    }
     // The verdict of verify, whose bytes are then those of prepare; in another folder too.
     void expect_verdict_repeats(const std::string& cell) const {
         copy_project(cell);
@@ -125,6 +171,7 @@ struct VerifyCommand : ::testing::Test {
         EXPECT_TRUE(has(of_file["notes"].dump(), "its setup was not compared with that of its project"));
         of_file["notes"] = json::array();
         EXPECT_EQ(of_file, json::parse(made)) << "on one core, without the project";
+        expect_view(elsewhere.path / "A.carved.glb", of_file["figures"]);
     }
 };
 

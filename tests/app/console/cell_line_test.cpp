@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "base/files/temporary_folder.h"
 #include "sim/cell/cell_sim.h"
 
@@ -81,6 +83,37 @@ TEST_F(Line, ACommandForAnotherJobThanTheOneInTheCellIsNotSent) {
     EXPECT_EQ(answer.status, 409U);
     EXPECT_EQ(sim.status().ack_seq, before.ack_seq);
     EXPECT_EQ(l->command("stop", "").status, 200U);
+}
+
+TEST_F(Line, ACommandThatWaitsForThePersonAtTheCellDelaysNeitherTheReadingNorAnother) {
+    CellSimOptions options;
+    options.limits.consent = Consent::ask;
+    std::promise<void> answered;
+    options.ask = [over = answered.get_future().share()](const std::string&) {
+        over.wait();
+        return true;
+    };
+    CellSim sim(options);
+    sim.start();
+    const auto l = line(sim.port());
+    const auto is_in = [&](PackState wanted) { return comes_true([&] { return l->view().state == wanted; }); };
+    EXPECT_TRUE(comes_true([&] { return l->view().link == CellLinkState::connected; }));
+    ASSERT_EQ(l->command("abort", "").status, 200U);
+    ASSERT_TRUE(is_in(PackState::aborted));
+    std::future<WorkerAnswer> clear = std::async(std::launch::async, [&] { return l->command("clear", ""); });
+    ASSERT_TRUE(comes_true([&] { return sim.status().ack_result == AckResult::pending; }));
+    for (int i = 0; i < 10; ++i) {
+        std::this_thread::sleep_for(200ms);
+        EXPECT_EQ(clear.wait_for(0s), std::future_status::timeout);
+        EXPECT_LT(*l->view().read_ms_ago, 1'500);
+    }
+    EXPECT_EQ(l->command("abort", "").status, 200U);
+    // Its answer is not in STATUS any more, and so it waits no longer.
+    EXPECT_EQ(clear.wait_for(20s), std::future_status::ready);
+    answered.set_value();
+    const WorkerAnswer end = clear.get();
+    EXPECT_EQ(end.status, 200U);
+    EXPECT_NE(end.document.find("\"unknown\""), std::string::npos) << end.document;
 }
 
 }  // namespace

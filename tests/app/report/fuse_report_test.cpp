@@ -34,6 +34,14 @@ TEST(FuseReport, NamesTheScanThatDoesNotFitAndTheNextStep) {
     EXPECT_EQ(text[6], "Next: qchopper repair 'out dir/m.ply' -o 'out dir/m-solid.ply'");
 }
 
+TEST(FuseReport, WhatRepairCannotCloseIsSaid) {
+    Fused open = fused();
+    open.report.missing_share = 0.404;
+    const std::vector<std::string> text = lines(open, "m.ply");
+    EXPECT_NE(text.at(6).find("closing the mesh takes at least 40 % of its area"), std::string::npos) << text[6];
+    EXPECT_EQ(text.back(), "Next: qchopper inspect m.ply");
+}
+
 TEST(FuseReport, TheDocumentHasTheKeysOfThePage) {
     const nlohmann::ordered_json json = *document(fused(), "m.ply").json;
     EXPECT_EQ(json.at("schema"), "qchopper-fuse-1");

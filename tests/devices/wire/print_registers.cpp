@@ -65,6 +65,10 @@ std::string print_codes() {
            " of BAD_SIGNATURE: " + describe(AckResult::bad_signature, signature_detail::unsigned_ticket) + "; ";
     out += number(signature_detail::revoked_key) +
            " of UNKNOWN_KEY: " + describe(AckResult::unknown_key, signature_detail::revoked_key) + ".\n";
+    out +=
+        "\nSTORE takes the TICKET and the SIGNATURE that came last over its own connection; one that wrote neither "
+        "takes "
+        "what any wrote last.\n";
     return out;
 }
 

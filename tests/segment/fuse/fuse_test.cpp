@@ -153,6 +153,7 @@ TEST(Fuse, TenViewsBecomeTheSurfaceAgain) {
     EXPECT_FALSE(fused.report.is_other_sign);
     ASSERT_EQ(fused.report.scans.size(), 10U);
     for (const FusedScan& scan : fused.report.scans) EXPECT_TRUE(scan.fits) << scan.file;
+    EXPECT_LT(fused.report.missing_share, 0.05);
     const Distances there = distances(fused.mesh.points, vertebra());
     EXPECT_LT(there.largest, 3 * voxel);
     EXPECT_LT(there.mean, 0.3 * voxel);
@@ -219,6 +220,7 @@ TEST(Fuse, TheTwoRealScansOfTheBunnyLieTogether) {
     const TriangleMesh bunny = read_mesh(list.parent_path().parent_path() / "bunny_bun_zipper.ply").mesh;
     const Distances there = distances(fused.mesh.points, bunny);
     EXPECT_LT(there.mean, fused.report.voxel);
+    EXPECT_GT(fused.report.missing_share, 0.1) << "seen from two sides";
 }
 
 }  // namespace

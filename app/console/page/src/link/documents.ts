@@ -217,27 +217,6 @@ export interface MilledPiece {
   areas_mm2: Record<string, number>;
 }
 
-export interface PreparedPiece extends Setup {
-  name: string;
-  faces: number;
-  volume_mm3: number;
-  box_mm: Vec3;
-  piece_state: string;
-  out_of_reach: unknown[];
-  job?: string;
-  program?: { parts: number; no_program_because?: string; time_s?: number };
-}
-
-export interface Prepare {
-  all_fit: boolean;
-  arm_checked: boolean;
-  max_unreachable: number;
-  stop_rules_hold: boolean;
-  pieces: PreparedPiece[];
-  warnings: string[];
-  assembly?: { cut: number; moved: string[]; standing: string[]; direction: Vec3; distance_mm: number }[];
-}
-
 export interface SetupDocument {
   pieces: {
     name: string;
@@ -272,7 +251,6 @@ export interface Project {
   redo: string | null;
   cell: { name: string } | null;
   segment: Segment; // while work has the project: as it was read last
-  prepare: Prepare | null;
   drawn: DrawnPiece[]; // the pieces as the view shows them: after a decision those before it, until the new ones are there
   history?: string[]; // the decisions in force, oldest first
 }

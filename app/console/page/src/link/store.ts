@@ -112,10 +112,7 @@ export async function start(): Promise<void> {
 }
 
 // A project that work has is told without its document.
-type Read = Omit<Project, "segment" | "prepare" | "drawn"> & {
-  segment: Project["segment"] | null;
-  prepare?: Project["prepare"];
-};
+type Read = Omit<Project, "segment" | "drawn"> & { segment: Project["segment"] | null };
 
 const reads = new Map<string, Promise<Project>>();
 
@@ -131,7 +128,7 @@ export async function readProject(id: string, again = false): Promise<Project> {
       const before = store.projects.get(id);
       const segment = answer.segment ?? before?.segment;
       if (!segment) throw new ApiError(423, "Work has the project", "", "It is shown when the work is over", "", "try_again");
-      const project = { ...answer, segment, prepare: answer.prepare ?? null, drawn: before?.drawn ?? [] };
+      const project = { ...answer, segment, drawn: before?.drawn ?? [] };
       change({ projects: new Map(store.projects).set(id, project) });
       if (answer.segment) void draw(project);
       return project;

@@ -7,14 +7,17 @@ import type { Project } from "../link/documents";
 import { currentWork } from "../link/state";
 import { useProject, useStore } from "../link/store";
 import { useAsking } from "../parts/asking";
-import { ErrorBox, sentence } from "../parts/error";
+import { ErrorBox } from "../parts/error";
+import { Signed } from "../parts/signed";
 import { useWork } from "../parts/work_result";
-import { count } from "../parts/words";
+import { counted } from "../parts/words";
 
 interface Made {
   pieces: number;
   joints: number;
   steps: number;
+  assembly: { cut: number; moved: string[]; standing: string[]; joints: string[]; clear: boolean }[];
+  held: string[]; // pieces that no glued face holds when they are moved
 }
 
 const FILES = [
@@ -36,9 +39,10 @@ export function GuidePage({ address, stale }: { address: Address; stale: boolean
 
 function Guide({ project, stale }: { project: Project; stale: boolean }) {
   const { state } = useStore();
-  const [made, setMade] = useState<Made | null>(null);
+  const [last, setLast] = useState<{ of: string; made: Made } | null>(null);
+  const made = last?.of === project.revision ? last.made : null; // a decision removes the guide
   const asking = useAsking();
-  const { error, begin } = useWork<Made>(setMade);
+  const { error, begin } = useWork<Made>((result) => setLast({ of: project.revision, made: result }));
   const off = stale || (state?.read_only ?? true) || asking.busy || (state ? currentWork(state) !== null : true);
   const make = () =>
     asking.run(async () =>
@@ -52,7 +56,6 @@ function Guide({ project, stale }: { project: Project; stale: boolean }) {
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   };
-  const steps = project.prepare?.assembly ?? [];
   return (
     <>
       {project.stage !== "done" && <p>The guide is made of a prepared project: press Prepare on the page Jobs.</p>}
@@ -72,28 +75,41 @@ function Guide({ project, stale }: { project: Project; stale: boolean }) {
         ))}
       </p>
       <p role="status">
-        {made && `The guide is made: ${count(made.pieces)} pieces, ${count(made.joints)} joints, ${count(made.steps)} steps.`}
+        {made && `The guide is made: ${counted(made.pieces, "piece")}, ${counted(made.joints, "joint")}, ${counted(made.steps, "step")}.`}
       </p>
       <ErrorBox error={asking.error ?? error} actions={{ try_again: asking.again, make_guide: make }} onClose={asking.clear} />
-      {steps.length > 0 && (
-        <table>
-          <caption>Steps of the assembly</caption>
-          <thead>
-            <tr>
-              <th scope="col">Step</th>
-              <th scope="col">What is done</th>
-            </tr>
-          </thead>
-          <tbody>
-            {steps.map((step, i) => (
-              <tr key={i}>
-                <th scope="row">{i + 1}</th>
-                <td>{sentence(`${step.moved.join(", ")} is joined to ${step.standing.join(", ")} at cut ${step.cut}`)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      )}
+      {made && made.assembly.length > 0 && <Steps made={made} />}
     </>
+  );
+}
+
+function Steps({ made }: { made: Made }) {
+  return (
+    <table>
+      <caption>Steps of the assembly</caption>
+      <thead>
+        <tr>
+          <th scope="col">Step</th>
+          <th scope="col">What is moved</th>
+          <th scope="col">To what stands</th>
+          <th scope="col">Joints that it closes</th>
+          <th scope="col">Hold it</th>
+        </tr>
+      </thead>
+      <tbody>
+        {made.assembly.map((step, i) => (
+          <tr key={i}>
+            <th scope="row">{i + 1}</th>
+            <td>{step.moved.join(", ")}</td>
+            <td>{step.standing.join(", ")}</td>
+            <td>{step.joints.join(", ")}</td>
+            <td>
+              {step.moved.some((piece) => made.held.includes(piece)) && <Signed state="missing" word="nothing holds it yet" />}
+              {!step.clear && <Signed state="negative" word="the way is not clear" />}
+            </td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }

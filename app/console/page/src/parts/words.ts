@@ -5,6 +5,9 @@ export const number = (value: number, digits: number): string =>
 
 export const count = (value: number): string => value.toLocaleString("en-GB");
 
+// "1 joint", "1,200 joints"
+export const counted = (value: number, one: string): string => `${count(value)} ${one}${value === 1 ? "" : "s"}`;
+
 export const percent = (share: number): string => `${number(100 * share, 2)} %`;
 
 export function volume(mm3: number): string {

@@ -3,7 +3,7 @@
 import { dot, flipped, moved, normalised, type CutPlane } from "../../geometry/plane";
 import type { Preview, Vec3 } from "../../link/documents";
 import { NumberField } from "../../parts/number_field";
-import { count, length, volume } from "../../parts/words";
+import { count, counted, length, volume } from "../../parts/words";
 import type { Side } from "../../view/scene";
 import { OutlinePicture } from "./outline_picture";
 
@@ -87,7 +87,7 @@ function Makes({ preview, plane }: { preview: Preview; plane: CutPlane }) {
       <OutlinePicture preview={preview} />
       <div>
         <p role="status">
-          {preview.loops.length === 1 ? "One outline" : `${count(preview.loops.length)} outlines`} of {length(preview.length_mm)}.
+          {counted(preview.loops.length, "outline")} of {length(preview.length_mm)}.
           Exact.
         </p>
         {preview.sections_cross && (

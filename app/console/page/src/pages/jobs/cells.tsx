@@ -30,8 +30,10 @@ function CellPanel({ cell, off }: { cell: Cell; off: boolean }) {
   const [asked, setAsked] = useState<Command | null>(null);
   const [done, setDone] = useState("");
   const asking = useAsking();
+  const stopping = useAsking(); // Resume and Clear wait for the person at the cell; Stop and Abort do not wait for them
+  const by = (command: Command) => (command === "stop" || command === "abort" ? stopping : asking);
   const send = (command: Command) =>
-    asking.run(async () => {
+    by(command).run(async () => {
       const body = { command, ...(cell.job === null ? {} : { job: cell.job }) };
       const answer = await post<CommandDocument>(`/api/cells/${cell.id}/commands`, body);
       setDone(`${LABELS[command]}: ${sentence(answer.why)} ${sentence(answer.to_do ?? "")}`);
@@ -54,7 +56,7 @@ function CellPanel({ cell, off }: { cell: Cell; off: boolean }) {
             key={command}
             type="button"
             class={command === "abort" || command === "stop" ? "danger" : ""}
-            disabled={off || asking.busy || cell.link !== "connected"}
+            disabled={off || by(command).busy || cell.link !== "connected"}
             onClick={() => press(command)}
           >
             {LABELS[command]}
@@ -63,6 +65,7 @@ function CellPanel({ cell, off }: { cell: Cell; off: boolean }) {
       </p>
       <p role="status">{done}</p>
       <ErrorBox error={asking.error} onClose={asking.clear} />
+      <ErrorBox error={stopping.error} onClose={stopping.clear} />
       {asked !== null && (
         <Confirm title={`${LABELS[asked]} the job in ${cell.name}?`} action={LABELS[asked]} onYes={() => send(asked)} onClose={() => setAsked(null)}>
           <p>

@@ -8,7 +8,7 @@ import { currentWork } from "../../link/state";
 import { useProject, useStore } from "../../link/store";
 import { ErrorBox } from "../../parts/error";
 import { Signed } from "../../parts/signed";
-import { count, percent, volume } from "../../parts/words";
+import { counted, percent, volume } from "../../parts/words";
 import { STATES, type DisplayMesh } from "../../geometry/display_mesh";
 import { useMeshes, useStates } from "../../view/meshes";
 import { ViewNote } from "../../view/note";
@@ -110,7 +110,7 @@ function PieceList({ project, chosen, laid }: { project: Project; chosen: string
                       {made.reach && `, ${percent(made.reach.unreachable_share)} out of reach`}
                     </>
                   ) : (
-                    `${count(piece.faces)} faces`
+                    counted(piece.faces, "face")
                   )}
                 </small>
               </button>
