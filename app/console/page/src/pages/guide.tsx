@@ -93,7 +93,7 @@ function Steps({ made }: { made: Made }) {
           <th scope="col">What is moved</th>
           <th scope="col">To what stands</th>
           <th scope="col">Joints that it closes</th>
-          <th scope="col">Hold it</th>
+          <th scope="col">Remarks</th>
         </tr>
       </thead>
       <tbody>
