@@ -31,6 +31,7 @@ SUB_MODULES = {
         "picture",
         "access",
         "objectives",
+        "regions",
         "search",
         "joint",
     ],
@@ -63,6 +64,7 @@ HEAVY = {
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
     "toml++": (r"toml\+\+/", 1),
     "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 32),
+    "Boost.Graph": (r"boost/graph/", 1),
     "Beast": (r"boost/(beast|asio)/", 1),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),
