@@ -23,10 +23,10 @@ struct ProjectDraft {
 };
 
 // Checks font, folder and cell file, reads the plan, reads the painted files, then imports the scan and
-// finds what of it is ignored, what must not be cut, and its symmetry plane; writes nothing. The weights are those of
-// the plan where there is neither a preset nor given weights. Throws InputError: what check_font, check_output,
-// read_cell, read_plan, read_painted, read_no_cut, import_project_scan, ignore_surface and mark_no_cut throw, in this
-// order.
+// finds what of it is ignored, what must not be cut, the planes that methods propose, which are given ones from then
+// on, and its symmetry plane; writes nothing. The weights are those of the plan where there is neither a preset nor
+// given weights. Throws InputError: what check_font, check_output, read_cell, read_plan, read_painted, read_no_cut,
+// import_project_scan, ignore_surface and mark_no_cut throw, in this order.
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context);
 
 // A project whose folder no other program writes while this object lives.

@@ -28,6 +28,7 @@ struct ProjectChoices {
     RepairChoices repair = {};
     IgnoreChoices ignore = {};
     std::optional<std::filesystem::path> no_cut = {};  // a PLY that marks surface that must not be cut
+    std::vector<std::string> proposers = {};           // names of region_methods() (segment/regions/methods.h)
     std::string preset = {};                           // the name of the settings; empty: none
     SearchSettings settings = {};                      // all but the volume below which solids are no pieces
     GivenWeights weights = {};                         // in place of those of the settings

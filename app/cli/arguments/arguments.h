@@ -94,6 +94,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<int> offsets;
     std::optional<double> offset_step_mm;
     std::optional<std::filesystem::path> planes;
+    std::optional<std::string> propose;  // option_values.h reads it
     bool symmetry = false;
     std::optional<std::filesystem::path> no_cut;
     std::optional<std::filesystem::path> ignore_surface;

@@ -78,6 +78,7 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
                                                     {a.offsets.has_value(), "--offsets"},
                                                     {a.offset_step_mm.has_value(), "--offset-step"},
                                                     {a.planes.has_value(), "--planes"},
+                                                    {a.propose.has_value(), "--propose"},
                                                     {a.symmetry, "--symmetry"},
                                                     {a.no_cut.has_value(), "--no-cut"}};
     for (const auto& [is_given, name] : options) {

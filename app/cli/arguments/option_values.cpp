@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "segment/io/formats/text.h"
+#include "segment/regions/methods.h"
 
 namespace qchopper {
 namespace {
@@ -241,6 +242,20 @@ std::optional<std::size_t> place_from(const std::string& text) {
     const std::optional<double> value = number_from(text);
     if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;
     return static_cast<std::size_t>(*value);
+}
+
+std::optional<std::vector<std::string>> proposers_from(const std::string& text) {
+    std::vector<std::string> names;
+    if (text == "none") return names;
+    if (text == "all") {
+        for (const RegionMethod& method : region_methods()) names.emplace_back(method.name);
+        return names;
+    }
+    for (const std::string& name : split(text)) {
+        if (region_method(name) == nullptr || std::ranges::find(names, name) != names.end()) return std::nullopt;
+        names.push_back(name);
+    }
+    return names;
 }
 
 std::vector<std::string> forbiddable() {

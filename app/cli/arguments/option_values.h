@@ -26,6 +26,9 @@ namespace qchopper {
 // count, undercut. Weights are from 0 to 1e12.
 std::optional<GivenWeights> weights_from(const std::string& text);
 
+// The names of the methods that propose planes, each once: "none", "all", or names by commas.
+std::optional<std::vector<std::string>> proposers_from(const std::string& text);
+
 // The objectives of which a value of 1 can be forbidden.
 std::vector<std::string> forbiddable();
 

@@ -123,6 +123,7 @@ ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_i
     choices.repair = repair_choices(a);
     choices.ignore = {a.ignore_surface, a.ignore_inside};
     choices.no_cut = a.no_cut;
+    if (a.propose) choices.proposers = *proposers_from(*a.propose);
     choices.preset = a.preset.value_or(preset_if_none);
     choices.settings = settings_of(a, choices.preset);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;

@@ -6,6 +6,7 @@
 
 #include "app/cli/arguments/option_values.h"
 #include "app/store/ready_cells.h"
+#include "segment/regions/methods.h"
 
 namespace qchopper {
 namespace {
@@ -59,6 +60,12 @@ void add_candidate_options(CLI::App* c, ProjectArguments& a) {
         ->excludes(offsets);
     c->add_option("--planes", a.planes,
                   "a text file with a plane nx,ny,nz,d in each line; every piece is tried with them too");
+    c->add_option(
+         "--propose", a.propose,
+         "every piece is tried with planes along the borders of the regions of the scan too, by methods of the "
+         "literature: " +
+             names_of_region_methods() + "; several by commas, all or none (none; docs/user/candidate-planes.md)")
+        ->check(read_by(proposers_from, "neither none, all, nor names of methods"));
     c->add_flag("--symmetry", a.symmetry,
                 "find the symmetry plane of the scan; it and the mirror images of cuts are tried too (chopper does)");
     c->add_option("--no-cut", a.no_cut,

@@ -115,6 +115,33 @@ TEST_F(PlaneOptions, TheSymmetryPlaneIsReportedAndTried) {
     EXPECT_TRUE(has_image);
 }
 
+TEST_F(PlaneOptions, ThoseThatMethodsProposeAreKeptAndTried) {
+    std::ofstream(folder.path / "planes.txt") << "0,0,1,5\n";
+    const program::Ended made =
+        segment({"--offsets", "5", "--planes", "planes.txt", "--propose", "shlafman,zhou-huang", "--step"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const std::size_t first = made.err.find("shlafman finds ");
+    EXPECT_NE(first, std::string::npos) << made.err;
+    EXPECT_LT(first, made.err.find("zhou-huang finds ")) << made.err;
+    const json planes = settings()["planes"];
+    ASSERT_GT(planes.size(), 2U) << made.err;
+    EXPECT_EQ(planes[0]["offset_mm"], 5);  // the operator's own come first
+    std::set<int> places;
+    const json state = document({"segment", "p.qch", "--step", "--top", "1000"});
+    for (const json& plane : state["proposal"]["planes"]) {
+        if (plane["normal_index"] == -4) places.insert(plane["offset_index"].get<int>());
+    }
+    EXPECT_GT(places.size(), 1U);
+    EXPECT_LT(static_cast<std::size_t>(*places.rbegin()), planes.size());
+}
+
+TEST_F(PlaneOptions, NoneAreProposedByDefault) {
+    const program::Ended made = segment({"--offsets", "5"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_FALSE(settings().contains("planes"));
+    EXPECT_EQ(made.err.find(" finds "), std::string::npos) << made.err;
+}
+
 TEST_F(PlaneOptions, NoPlaneGoesThroughSurfaceThatMustNotBeCut) {
     const TriangleMesh mesh = read_mesh(folder.path / "scan.ply").mesh;
     const Box box = bounds(mesh);
@@ -164,6 +191,8 @@ TEST_F(PlaneOptions, ThatAreWrongAreRefused) {
           Wrong{{"--planes", "none.txt"}, exit_config, "holds no plane"},
           Wrong{{"--planes", "flat.txt"}, exit_config, "line 1"},
           Wrong{{"--planes", "missing.txt"}, exit_missing, "missing.txt"},
+          Wrong{{"--propose", "voronoi"}, exit_use, "shlafman"},
+          Wrong{{"--propose", "shlafman,shlafman"}, exit_use, "shlafman"},
           Wrong{{"--no-cut", "scan.ply"}, exit_mesh, "no_cut"},
           Wrong{{"--no-cut", "missing.ply"}, exit_missing, "missing.ply"}}) {
         const program::Ended ended = segment(wrong.options);
@@ -179,6 +208,7 @@ TEST_F(PlaneOptions, ThatAreWrongAreRefused) {
         EXPECT_NE(ended.err.find("belongs to a new one"), std::string::npos) << ended.err;
     }
     EXPECT_EQ(run({"segment", "p.qch", "--step", "--symmetry"}).code, exit_use);
+    EXPECT_EQ(run({"segment", "p.qch", "--step", "--propose", "all"}).code, exit_use);
 }
 
 }  // namespace
