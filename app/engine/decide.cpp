@@ -44,6 +44,7 @@ class RequestHandler {
         if (request_.plane) cut_by_plane();
         if (request_.preview) preview();
         if (request_.plan) write_plan();
+        if (request_.regions) answer_.regions = show_regions(project_.scan(), *request_.regions, context_);
         if (request_.search) search(*request_.search);
         tell_of_jobs(before);
         return std::move(answer_);

@@ -15,6 +15,7 @@
 #include "app/engine/open_project.h"
 #include "app/engine/outline.h"
 #include "app/engine/setup_project.h"
+#include "app/pictures/regions_view.h"
 #include "app/store/project_context.h"
 
 namespace qchopper {
@@ -41,6 +42,7 @@ struct ProjectRequest {
     bool reset = false;
     std::optional<SearchRequest> search;
     std::optional<std::filesystem::path> plan;  // to write
+    std::optional<RegionsRequest> regions;      // to draw
     bool preview_setups = false;                // of a preview: how its pieces would be milled
     // Of any request.
     std::optional<GivenWeights> weights;        // a decision that is made first
@@ -80,6 +82,7 @@ struct SegmentAnswer {
     std::optional<Preview> preview;
     std::optional<Weights> tried_weights;       // by which these are ranked; nothing: by those in force
     std::optional<std::filesystem::path> plan;  // that was written
+    std::optional<ShownRegions> regions;        // that were drawn
     // The project afterwards (segment_project.h); decide() leaves these as they are.
     bool is_project_made = true;  // false: a plan does not fit the scan, and nothing is on disk
     std::filesystem::path folder;

@@ -131,6 +131,7 @@ Explanation explain_by(const Before& b, const Cut& cut, const SearchSettings& se
     e.cut = cut;
     e.objectives = settings.objectives;
     e.chosen = cut.chosen;
+    e.proposer = proposer_of(cut.chosen, settings.candidates);
     e.max_judged = max_judged_planes(settings);
     e.ranked =
         rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index, too_large_for);

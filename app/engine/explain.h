@@ -37,6 +37,7 @@ struct Explanation {
     std::vector<std::size_t> listed;   // of them the best ten that are more than one step of the offsets apart
     std::optional<std::size_t> place;  // index of the chosen plane among them; nothing: it is none of them now
     Ranked chosen;
+    std::string proposer;  // the method that proposed the chosen plane (proposer_of); empty: none
     std::vector<Ranked>
         along_own_normal;  // without a place among the normals: planes along the normal of the chosen one, by offset
     std::optional<OpenedSurface> opened;  // nothing where surface out of reach has no weight

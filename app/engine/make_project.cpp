@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "app/engine/presets.h"
+#include "app/pictures/regions_view.h"
 #include "app/store/ignored_surface.h"
 #include "app/store/no_cut_surface.h"
 #include "app/store/project_lines.h"
@@ -20,7 +21,6 @@
 #include "cam/setup/choose_setup.h"
 #include "segment/picture/lettering.h"
 #include "segment/regions/methods.h"
-#include "segment/regions/region_planes.h"
 
 namespace qchopper {
 namespace {
@@ -104,31 +104,19 @@ void take_finest_tool(ProjectChoices& choices, const Cell& cell) {
     std::ranges::sort(choices.tools);
 }
 
-// "shlafman finds 7 regions and proposes 6 planes along their borders."
-std::string sentence(const RegionMethod& method, std::size_t regions, const RegionPlanes& found) {
-    std::string text = std::string(method.name) + " finds ";
-    if (regions == 1) return text + "one region only, and proposes no plane.";
-    text += std::to_string(regions) + " regions and proposes ";
-    if (found.planes.empty()) return text + "no plane: their borders are too short or lie on lines.";
-    text += std::to_string(found.planes.size()) + (found.planes.size() == 1 ? " plane" : " planes");
-    text += " along their borders";
-    if (found.beyond > 0) text += ", those of the longest ones; " + std::to_string(found.beyond) + " more are left out";
-    return text + ".";
-}
-
 // The planes of each method in their order (segment/regions/region_planes.h), with a message for each. Precondition:
 // every name is one of region_methods(). Throws Cancelled.
-std::vector<Plane> proposed_planes(const TriangleMesh& scan, const std::vector<std::string>& methods,
-                                   const Context& context) {
-    std::vector<Plane> planes;
+std::vector<GivenPlane> proposed_planes(const TriangleMesh& scan, const std::vector<std::string>& methods,
+                                        const Context& context) {
+    std::vector<GivenPlane> planes;
     for (const std::string& name : methods) {
         const RegionMethod* method = region_method(name);
         assert(method != nullptr);
         const StageTimer stage(context, "regions by " + name);
         const ScanRegions regions = scan_regions(scan, *method, {}, context);
         const RegionPlanes found = region_planes(face_graph(regions.copy), regions.labels);
-        context.message(sentence(*method, regions.labels.count, found));
-        for (const BorderPlane& border : found.planes) planes.push_back(border.plane);
+        context.message(region_sentence(name, regions.labels.count, found));
+        for (const BorderPlane& border : found.planes) planes.push_back({border.plane, name});
     }
     return planes;
 }
@@ -157,7 +145,7 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     std::optional<IgnoredSurface> ignored = ignore_surface(choices, std::move(painted), imported, context);
     CandidateOptions& candidates = choices.settings.candidates;
     std::optional<NoCutSurface> no_cut_surface = mark_no_cut(choices, std::move(no_cut), imported, candidates, context);
-    const std::vector<Plane> proposed = proposed_planes(imported.mesh, choices.proposers, context);
+    const std::vector<GivenPlane> proposed = proposed_planes(imported.mesh, choices.proposers, context);
     candidates.given.insert(candidates.given.end(), proposed.begin(), proposed.end());
     candidates.takes_symmetry |= choices.weights.over(choices.settings.objectives.weights).symmetry > 0;
     if (candidates.takes_symmetry) {

@@ -51,7 +51,9 @@ std::vector<std::optional<double>> unreachable_shares(OpenProject& open, const C
 
 // Adds the state of the project to an answer.
 SegmentAnswer with_state(SegmentAnswer answer, OpenProject& open, const Context& context) {
-    if (!answer.proposal && !answer.preview && !answer.plan) answer.unreachable = unreachable_shares(open, context);
+    if (!answer.proposal && !answer.preview && !answer.plan && !answer.regions) {
+        answer.unreachable = unreachable_shares(open, context);
+    }
     if (open.project().settings.objectives.needs_structure() && is_scan_there(open.project())) {
         answer.stress = open.stress();
     }

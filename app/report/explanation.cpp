@@ -31,6 +31,8 @@ std::string origin_of(const Cut& cut) {
             return "The plane is a candidate that the search moved and turned a little";
         case symmetry_index:
             return "The plane is the symmetry plane of the scan";
+        case refined_given_index:
+            return "The plane is one of those given for all pieces, which the search moved and turned a little";
         case given_index:
             return "The plane is one of those given for all pieces";
         case mirror_index:
@@ -134,9 +136,8 @@ Json json_of(const OpenedSurface& o) {
             {"unreachable_after_best_other_mm2", o.best_other_after_mm2}};
 }
 
-}  // namespace
-
-std::string describe(const Explanation& e) {
+// The chosen plane beside the next or the best one.
+std::string comparison(const Explanation& e) {
     const Ranked* other = e.best_other();
     if (other == nullptr) {
         return e.place ? "The plane is the only candidate that parts the piece."
@@ -159,6 +160,13 @@ std::string describe(const Explanation& e) {
     }
     if (more < 0.0005) return "The plane is the best of " + count + "; the next is as good.";
     return "The plane is the best of " + count + "; the next would cost " + fixed(more, 3) + " more" + why;
+}
+
+}  // namespace
+
+std::string describe(const Explanation& e) {
+    if (e.proposer.empty()) return comparison(e);
+    return comparison(e) + " It was proposed by " + e.proposer + ", along a border between two regions of the scan.";
 }
 
 std::vector<std::string> lines(const Explanation& e, const Project& project, const std::string& picture) {
@@ -193,6 +201,7 @@ Document document(const Explanation& e, const Project& project, const std::strin
               {"discarded", discarded_json(project)},
               {"weights", json_of(e.objectives.weights)},
               {"chosen", to_json(e.chosen)},
+              {"proposed_by", e.proposer.empty() ? Json() : Json(e.proposer)},
               {"place", e.place ? Json(*e.place + 1) : Json()},
               {"candidates", e.ranked.size()},
               {"best", best},

@@ -16,6 +16,25 @@
 #include "base/text.h"
 
 namespace qchopper {
+
+template <class V, Of<BorderPlane> T>
+void fields(V& v, T& border) {
+    fields(v, border.plane);
+    v("border_mm", border.border_mm);
+}
+
+template <class V, Of<ShownRegions> T>
+void fields(V& v, T& shown) {
+    v("method", shown.method);
+    v("regions", shown.regions);
+    v("copy_faces", shown.copy_faces);
+    v("planes", shown.planes.planes);
+    v("straight_borders", shown.planes.straight);
+    v("equal_planes", shown.planes.equal);
+    v("planes_left_out", shown.planes.beyond);
+    v("file", shown.file);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -283,6 +302,10 @@ std::vector<std::string> lines(const SegmentAnswer& answer) {
             ": " + answer.plan->string());
         add(text, discarded_lines(project));
     }
+    if (answer.regions) {
+        text.push_back(region_sentence(answer.regions->method, answer.regions->regions, answer.regions->planes));
+        text.push_back("The regions are in " + answer.regions->file.string() + ". Nothing was cut.");
+    }
     if (answer.pieces_written) text.push_back("The pieces are in " + (answer.folder / "pieces").string() + ".");
     const Project by_tried = ranked_by(answer);
     if (answer.proposal) {
@@ -296,7 +319,7 @@ std::vector<std::string> lines(const SegmentAnswer& answer) {
                                      : "They are not kept; keep them by: qchopper segment " +
                                            shell_word(answer.folder) + " --weights " + word));
     }
-    if (!answer.proposal && !answer.preview && !answer.plan) add(text, committed_lines(answer));
+    if (!answer.proposal && !answer.preview && !answer.plan && !answer.regions) add(text, committed_lines(answer));
     return text;
 }
 
@@ -327,6 +350,7 @@ Document document(const SegmentAnswer& answer) {
               {"warnings", project.warnings}};
     add_scan(json, project);
     if (answer.stress) json["stress"] = stress_json(*answer.stress);
+    if (answer.regions) json["found_regions"] = json_of(*answer.regions);
     if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.tried_weights) json["tried_weights"] = json_of(*answer.tried_weights);

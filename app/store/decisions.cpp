@@ -66,6 +66,7 @@ std::string kind_of(const Ranked& plane) {
     if (plane.normal_index == refined_index) return ", refined";
     if (plane.normal_index == symmetry_index) return ", the symmetry plane";
     if (plane.normal_index == given_index) return ", a given one";
+    if (plane.normal_index == refined_given_index) return ", a given one, refined";
     if (plane.normal_index == mirror_index) return ", the mirror image of cut " + std::to_string(plane.offset_index);
     return "";
 }

@@ -94,6 +94,12 @@ void fields(V& v, T& plane) {
     v("offset_mm", plane.offset);
 }
 
+template <class V, Of<GivenPlane> T>
+void fields(V& v, T& given) {
+    fields(v, given.plane);
+    v.maybe("proposed_by", given.by);
+}
+
 template <class V, Of<SymmetryPlane> T>
 void fields(V& v, T& symmetry) {
     fields(v, symmetry.plane);

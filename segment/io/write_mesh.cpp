@@ -17,13 +17,17 @@ void put(Bytes& bytes, Unsigned value) {
     for (std::size_t i = 0; i < sizeof(Unsigned); ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-std::string header(const TriangleMesh& mesh) {
+std::string header(const TriangleMesh& mesh, const PlyFaces* faces) {
     std::string text = "ply\nformat binary_little_endian 1.0\ncomment millimetres\n";
     text += "element vertex " + std::to_string(mesh.points.size()) + "\n";
     text += "property double x\nproperty double y\nproperty double z\n";
     text += "element face " + std::to_string(mesh.triangles.size()) + "\n";
     text += "property list uchar uint vertex_indices\n";
     if (!mesh.cap_of.empty()) text += "property int cap\n";
+    if (faces != nullptr) {
+        text += "property uint region\n";
+        text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    }
     return text + "end_header\n";
 }
 
@@ -38,13 +42,13 @@ void put_vector(std::uint8_t* at, Vec3 v) {
     }
 }
 
-}  // namespace
-
-Bytes to_ply(const TriangleMesh& mesh) {
+// `faces` may be null.
+Bytes ply(const TriangleMesh& mesh, const PlyFaces* faces) {
     assert(is_consistent(mesh));
-    const std::string text = header(mesh);
+    const std::string text = header(mesh, faces);
+    const std::size_t per_face = 13U + (mesh.cap_of.empty() ? 0 : 4) + (faces == nullptr ? 0 : 7);
     Bytes bytes;
-    bytes.reserve(text.size() + 24 * mesh.points.size() + (mesh.cap_of.empty() ? 13 : 17) * mesh.triangles.size());
+    bytes.reserve(text.size() + 24 * mesh.points.size() + per_face * mesh.triangles.size());
     bytes.assign(text.begin(), text.end());
     for (const Vec3& p : mesh.points) {
         for (int axis = 0; axis < 3; ++axis) put(bytes, std::bit_cast<std::uint64_t>(p[axis]));
@@ -53,8 +57,22 @@ Bytes to_ply(const TriangleMesh& mesh) {
         put(bytes, std::uint8_t{3});
         for (const std::uint32_t corner : mesh.triangles[t]) put(bytes, corner);
         if (!mesh.cap_of.empty()) put(bytes, std::bit_cast<std::uint32_t>(mesh.cap_of[t]));
+        if (faces == nullptr) continue;
+        put(bytes, faces->region[t]);
+        for (const std::uint8_t channel : faces->colour[t]) put(bytes, channel);
     }
     return bytes;
+}
+
+}  // namespace
+
+Bytes to_ply(const TriangleMesh& mesh) {
+    return ply(mesh, nullptr);
+}
+
+Bytes to_ply(const TriangleMesh& mesh, const PlyFaces& faces) {
+    assert(faces.region.size() == mesh.triangles.size() && faces.colour.size() == mesh.triangles.size());
+    return ply(mesh, &faces);
 }
 
 Bytes to_stl(const TriangleMesh& mesh) {

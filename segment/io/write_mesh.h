@@ -7,7 +7,10 @@
 
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -16,6 +19,15 @@ namespace qchopper {
 
 // Precondition: is_consistent(mesh).
 Bytes to_ply(const TriangleMesh& mesh);
+
+// What a PLY has beside the mesh, per triangle: the uint property `region` and the colour as red, green and blue.
+struct PlyFaces {
+    std::vector<std::uint32_t> region;
+    std::vector<std::array<std::uint8_t, 3>> colour;
+};
+
+// Preconditions: is_consistent(mesh), and both have a value per triangle.
+Bytes to_ply(const TriangleMesh& mesh, const PlyFaces& faces);
 
 // Preconditions: is_consistent(mesh), fewer than 2^32 triangles.
 Bytes to_stl(const TriangleMesh& mesh);

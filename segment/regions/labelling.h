@@ -38,6 +38,12 @@ Labels eck_tiles(const FaceGraph& graph, const RegionOptions& options);
 Labels shlafman_parts(const FaceGraph& graph, const RegionOptions& options);
 Labels zhou_huang_parts(const FaceGraph& graph, const RegionOptions& options);
 Labels katz_tal_parts(const FaceGraph& graph, const RegionOptions& options);
+Labels liu_zhang_parts(const FaceGraph& graph, const RegionOptions& options);
+Labels shuffler_parts(const FaceGraph& graph, const RegionOptions& options);
+
+// Yardsticks, which are CGAL's.
+Labels shape_diameter_parts(const FaceGraph& graph, const RegionOptions& options);
+Labels variational_charts(const FaceGraph& graph, const RegionOptions& options);
 
 // The conditions of eck_tiles: how often each is broken.
 struct TileFaults {

@@ -27,7 +27,7 @@ struct RegionMethod {
     Labels (*labels)(const FaceGraph& graph, const RegionOptions& options) = nullptr;
 };
 
-// In the order of the survey (Nicholson 2016, chapter 2); names differ.
+// In the order of the survey (Nicholson 2016, chapter 2), then those that it does not name; names differ.
 std::span<const RegionMethod> region_methods();
 
 // Null: no method has this name.
@@ -36,14 +36,16 @@ const RegionMethod* region_method(std::string_view name);
 // "superfaces, eck, zhou-huang".
 std::string names_of_region_methods();
 
-// The regions of a scan, on a copy of it with fewer triangles.
+// The regions of a scan, on a copy of it with fewer triangles, without solids and shells beside the largest one.
 struct ScanRegions {
     TriangleMesh copy;  // every point of it is one of the scan
     Labels labels;      // of the triangles of the copy
 };
 
-// The regions of a scan by a method; those of less than 0.2 % of the surface are joined to neighbours where parts are
-// sought. Precondition: the mesh is closed and has a triangle. Throws Cancelled between simplification and labelling.
+// The regions of the connected part of a scan that has the most surface, by a method, because regions of small solids
+// beside it propose nothing of use; those of less than 0.2 % of the surface are joined to neighbours where parts are
+// sought, and borders are straightened (straight_borders.h). Precondition: the mesh is closed and has a triangle.
+// Throws Cancelled between simplification and labelling.
 ScanRegions scan_regions(const TriangleMesh& scan, const RegionMethod& method, const RegionOptions& options = {},
                          const Context& context = {});
 

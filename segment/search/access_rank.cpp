@@ -354,8 +354,11 @@ class AccessRanking {
         if (found.plane == best.candidate.plane) return;
         const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
         if (!nudged || !is_allowed({found.plane.normal, nudged->offset})) return;
-        EvaluatedPlane refined =
-            evaluated_alone({{found.plane.normal, nudged->offset}, found.plane.offset, refined_index, refined_index});
+        const bool was_given = best.candidate.normal_index == given_index;
+        EvaluatedPlane refined = evaluated_alone({{found.plane.normal, nudged->offset},
+                                                  found.plane.offset,
+                                                  was_given ? refined_given_index : refined_index,
+                                                  was_given ? best.candidate.offset_index : refined_index});
         if (!refined.evaluation || refined.evaluation->solids.size() != 2) return;
         access_.refined = std::move(refined);
     }

@@ -46,7 +46,8 @@ std::vector<Candidate> further_candidates(const Segmentation& segmentation, std:
         }
     };
     if (options.symmetry) add(options.symmetry->plane, symmetry_index, 0);
-    for (std::size_t i = 0; i < options.given.size(); ++i) add(options.given[i], given_index, static_cast<int>(i));
+    for (std::size_t i = 0; i < options.given.size(); ++i)
+        add(options.given[i].plane, given_index, static_cast<int>(i));
     if (!options.symmetry) return found;
     for (const Cut& cut : segmentation.cuts) {
         add(reflected(cut.chosen.plane, options.symmetry->plane), mirror_index, cut.number);

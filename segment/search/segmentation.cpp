@@ -73,6 +73,12 @@ UncutScan measure_scan(const Segmentation& uncut) {
     return scan;
 }
 
+std::string proposer_of(const Ranked& plane, const CandidateOptions& candidates) {
+    if (plane.normal_index != given_index && plane.normal_index != refined_given_index) return {};
+    const auto place = static_cast<std::size_t>(plane.offset_index);
+    return plane.offset_index >= 0 && place < candidates.given.size() ? candidates.given[place].by : std::string();
+}
+
 bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == cut.piece; });

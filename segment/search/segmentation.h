@@ -28,6 +28,9 @@ struct Ranked {
     bool operator==(const Ranked&) const = default;
 };
 
+// The method that proposed a plane, which is a given one or was moved from one; empty: none.
+std::string proposer_of(const Ranked& plane, const CandidateOptions& candidates);
+
 // One decision. The plane is applied exactly as recorded, never nudged again.
 struct Cut {
     std::int32_t number = 0;  // 1, 2, ...

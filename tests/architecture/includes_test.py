@@ -39,7 +39,7 @@ PLANTED = {
         "in a circle: segment/mesh/measure, segment/mesh/rays",
     ),
     "CGAL in a header": ("segment/cut/cap.h", "#include <CGAL/Surface_mesh.h>", "a header must not include CGAL"),
-    "CGAL in one more source": ("segment/cut/cut.cpp", "#  include <CGAL/Surface_mesh.h>", "6 files, 5 are allowed"),
+    "CGAL in one more source": ("segment/cut/cut.cpp", "#  include <CGAL/Surface_mesh.h>", "8 files, 7 are allowed"),
     "Embree in one more source": ("segment/picture/shade.cpp", "#include <embree3/rtcore.h>", "seen by 2 files"),
     "JSON in a header": ("app/report/columns.h", "#include <nlohmann/json.hpp>", "a header must not include JSON"),
     "the option parser in a header": ("app/cli/arguments/arguments.h", "#include <CLI/CLI.hpp>", "must not include CLI11"),

@@ -121,6 +121,7 @@ struct SegmentArguments : ProjectArguments {
     bool goes_on = false;                           // --auto
     std::optional<std::filesystem::path> plan;      // to write
     std::optional<std::filesystem::path> replayed;  // a plan to replay
+    std::optional<std::string> regions;             // a method; `out` is the file to write
     // Options of these.
     std::optional<std::string> expected_plane;  // nx,ny,nz,d
     bool preview_setups = false;                // --setups

@@ -37,7 +37,8 @@ Action action_of(const SegmentArguments& a) {
                               {a.reset, "--reset", false, false, false},
                               {a.goes_on, "--auto", false, true, true},
                               {a.plan.has_value(), "--plan", false, false, false},
-                              {a.replayed.has_value(), "--replay", false, true, true}};
+                              {a.replayed.has_value(), "--replay", false, true, true},
+                              {a.regions.has_value(), "--regions", false, false, false}};
     Action action{false, "this", false, true, true};
     for (const Action& next : actions) {
         if (!next.is_given) continue;
@@ -117,7 +118,12 @@ void check_action(const SegmentArguments& a, const Action& action) {
 
 void check_project(const SegmentArguments& a) {
     const std::string input = a.input.string();
-    const std::string option = new_project_option(a, a.replayed.has_value());
+    ProjectArguments of_project = a;
+    if (a.regions) {
+        if (!a.out) refuse("--regions writes a file", "name it: -o regions.png, or regions.ply");
+        of_project.out.reset();
+    }
+    const std::string option = new_project_option(of_project, a.replayed.has_value());
     if (!option.empty()) {
         refuse(input + " is a project: " + option + " belongs to a new one",
                "leave it out, or make a new project of the scan");

@@ -60,7 +60,10 @@ void take_candidates(const ProjectArguments& a, CandidateOptions& candidates) {
         candidates.offset_step_mm.reset();
     }
     if (a.offset_step_mm) candidates.offset_step_mm = a.offset_step_mm;
-    if (a.planes) candidates.given = planes_of_file(*a.planes);
+    if (a.planes) {
+        candidates.given.clear();
+        for (const Plane& plane : planes_of_file(*a.planes)) candidates.given.push_back({plane});
+    }
     candidates.takes_symmetry = candidates.takes_symmetry || a.symmetry;
 }
 
@@ -160,6 +163,7 @@ ProjectRequest request_of(const SegmentArguments& a) {
         if (a.beam) request.search->beam = static_cast<std::size_t>(*a.beam);
     }
     request.plan = a.plan;
+    if (a.regions) request.regions = RegionsRequest{*a.regions, a.out.value_or("")};
     if (a.weights) request.weights = weights_from(*a.weights);
     if (a.tried_weights) request.tried_weights = weights_from(*a.tried_weights);
     if (a.expected_plane) request.expected_plane = plane_from(*a.expected_plane);

@@ -65,7 +65,7 @@ void add_candidate_options(CLI::App* c, ProjectArguments& a) {
          "every piece is tried with planes along the borders of the regions of the scan too, by methods of the "
          "literature: " +
              names_of_region_methods() + "; several by commas, all or none (none; docs/user/candidate-planes.md)")
-        ->check(read_by(proposers_from, "neither none, all, nor names of methods"));
+        ->check(read_by(proposers_from, "neither none, all, nor some of " + names_of_region_methods()));
     c->add_flag("--symmetry", a.symmetry,
                 "find the symmetry plane of the scan; it and the mirror images of cuts are tried too (chopper does)");
     c->add_option("--no-cut", a.no_cut,
@@ -290,7 +290,12 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     c->add_flag("--auto", segment.goes_on, "let the search go on to the stop rules, given now or before");
     c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/user/plan-file.md)");
     c->add_option("--replay", segment.replayed, "make the cuts of a plan on this scan");
-    c->add_option("-o,--out", segment.out, "the project folder to make: NAME.qch");
+    c->add_option("--regions", segment.regions,
+                  "write the regions that a method of --propose finds on the scan to the .png or .ply of -o; cuts "
+                  "nothing")
+        ->check(read_by([](const std::string& text) { return region_method(text) != nullptr; },
+                        "none of " + names_of_region_methods()));
+    c->add_option("-o,--out", segment.out, "the project folder to make: NAME.qch; with --regions the file to write");
     add_common(c, common, [&] { common.command = segment; });
 }
 

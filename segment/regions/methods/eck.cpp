@@ -43,6 +43,7 @@ std::vector<bool> are_discs(const FaceGraph& graph, const std::vector<std::uint3
         if (of[edge.face[0]] == of[edge.face[1]]) ++euler[of[edge.face[0]]];
     }
     std::vector<bool> is_disc;
+    is_disc.reserve(euler.size());
     for (const long e : euler) is_disc.push_back(e == 1);
     return is_disc;
 }

@@ -105,6 +105,7 @@ Labels sander_charts(const FaceGraph& graph, const RegionOptions& options) {
     const WeightedGraph paths = weighted_faces(graph, cost);
     std::vector<std::uint32_t> seeds = first_seeds(graph);
     std::vector<Vec3> normals;
+    normals.reserve(seeds.size());
     for (const std::uint32_t s : seeds) normals.push_back(graph.normal[s]);
     Charts charts;
     for (int round = 0; round < max_rounds; ++round) {

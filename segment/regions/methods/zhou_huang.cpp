@@ -184,7 +184,8 @@ bool has_neck(const FaceGraph& graph, const std::vector<std::uint32_t>& of, std:
 
 Labels zhou_huang_parts(const FaceGraph& graph, const RegionOptions& /*options*/) {
     const WeightedGraph points = weighted_points(graph);
-    const auto [tree, from_other_end] = geodesic_trees(graph, points);
+    const std::array<ShortestPaths, 2> trees = geodesic_trees(graph, points);
+    const ShortestPaths& tree = trees[0];
     Seeds seeds = persistent_seeds(points, tree);
     if (seeds.saddles.empty()) return connected(graph, numbered(std::vector<std::uint32_t>(graph.size(), 0)));
     std::ranges::stable_sort(seeds.maxima, std::ranges::greater(), [&](std::uint32_t p) { return tree.cost[p]; });
@@ -193,7 +194,7 @@ Labels zhou_huang_parts(const FaceGraph& graph, const RegionOptions& /*options*/
     // What is left is what the saddles flood, each as far as the next one, and the root: one region, the body.
     const auto root_part = static_cast<std::uint32_t>(seeds.maxima.size());
     const std::uint32_t body = root_part + 1;
-    flooding.flood(tree.order.front(), root_part, persistent_seeds(points, from_other_end).saddles);
+    flooding.flood(tree.order.front(), root_part, persistent_seeds(points, trees[1]).saddles);
     std::vector<std::uint32_t> of = of_faces(graph, flooding.of(), body);
     if (!has_neck(graph, of, root_part)) std::ranges::replace(of, root_part, body);
     return without_small(graph, connected(graph, numbered(of)), least_share);

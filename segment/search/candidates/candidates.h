@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "segment/cut/piece.h"
@@ -21,6 +22,13 @@ enum class CandidateNormals {
     sphere  // those, and the 129 normals of the subdivided octahedron (tool_directions.h)
 };
 
+// A plane that is a candidate of every piece that it parts.
+struct GivenPlane {
+    Plane plane;          // canonical
+    std::string by = {};  // the method of segment/regions/methods.h that proposed it; empty: the operator
+    bool operator==(const GivenPlane&) const = default;
+};
+
 struct CandidateOptions {
     std::optional<CandidateNormals> normals;  // nothing: box, or where surface out of reach has a weight sphere
     int offsets_per_normal = 40;              // evenly spaced strictly inside the piece's extent
@@ -28,7 +36,7 @@ struct CandidateOptions {
     std::optional<double> offset_step_mm;
     bool takes_symmetry = false;            // whether the symmetry plane is looked for
     std::optional<SymmetryPlane> symmetry;  // that of the uncut scan: a candidate, and so are the mirror images of cuts
-    std::vector<Plane> given;               // the operator's, canonical: candidates of every piece
+    std::vector<GivenPlane> given;          // those of the operator first
     NoCut no_cut;                           // no candidate goes through this surface
     // Whether planes along the caps of a piece are candidates of it (cap_frame.h), because blocks end in caps.
     bool along_caps = false;
@@ -37,13 +45,14 @@ struct CandidateOptions {
 
 // Candidate::normal_index and offset_index of planes that are along none of the normals: the operator's choice for one
 // piece; the best of a ranking moved and turned a little (segment/search/refined_plane.h); the symmetry plane; one that
-// the operator gives for all pieces, offset_index being its place; the mirror image of a cut, offset_index being its
-// number.
+// is given for all pieces, offset_index being its place; the mirror image of a cut, offset_index being its number; a
+// given plane moved and turned a little, offset_index being its place too.
 constexpr int own_index = -1;
 constexpr int refined_index = -2;
 constexpr int symmetry_index = -3;
 constexpr int given_index = -4;
 constexpr int mirror_index = -5;
+constexpr int refined_given_index = -6;
 
 struct Candidate {
     Plane plane;               // nudged: the plane that is evaluated, cut and stored

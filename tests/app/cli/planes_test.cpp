@@ -126,6 +126,8 @@ TEST_F(PlaneOptions, ThoseThatMethodsProposeAreKeptAndTried) {
     const json planes = settings()["planes"];
     ASSERT_GT(planes.size(), 2U) << made.err;
     EXPECT_EQ(planes[0]["offset_mm"], 5);  // the operator's own come first
+    EXPECT_FALSE(planes[0].contains("proposed_by"));
+    EXPECT_EQ(planes[1]["proposed_by"], "shlafman");
     std::set<int> places;
     const json state = document({"segment", "p.qch", "--step", "--top", "1000"});
     for (const json& plane : state["proposal"]["planes"]) {
@@ -133,6 +135,43 @@ TEST_F(PlaneOptions, ThoseThatMethodsProposeAreKeptAndTried) {
     }
     EXPECT_GT(places.size(), 1U);
     EXPECT_LT(static_cast<std::size_t>(*places.rbegin()), planes.size());
+}
+
+TEST_F(PlaneOptions, RegionsAreWrittenAndNothingIsChanged) {
+    ASSERT_EQ(segment({"--offsets", "5"}).code, 0);
+    const auto project = [&] {
+        std::ifstream in(folder.path / "p.qch" / "project.json");
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    const std::string before = project();
+    const json told = document({"segment", "p.qch", "--regions", "shlafman", "-o", "regions.ply"})["found_regions"];
+    EXPECT_EQ(told["method"], "shlafman");
+    ASSERT_GT(told["regions"], 1) << told;
+    EXPECT_EQ(told["copy_faces"], 4000);
+    std::ifstream in(folder.path / "regions.ply");
+    const std::string ply(std::istreambuf_iterator<char>(in), {});
+    for (const char* words : {"element face 4000\n", "property uint region\n", "property uchar red\n"}) {
+        EXPECT_NE(ply.find(words), std::string::npos) << words;
+    }
+    EXPECT_EQ(read_mesh(folder.path / "regions.ply").mesh.triangles.size(), 4000U);
+    const program::Ended drawn = run({"segment", "p.qch", "--regions", "garland", "-o", "regions.png"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_NE(drawn.out.find("garland finds "), std::string::npos) << drawn.out;
+    EXPECT_TRUE(fs::exists(folder.path / "regions.png"));
+    EXPECT_EQ(project(), before);
+    for (const auto& [options, words] :
+         {std::pair<program::Arguments, const char*>{{"--regions", "shlafman"}, "name it"},
+          {{"--regions", "shlafman", "-o", "regions.stl"}, "neither in .png nor in .ply"},
+          {{"--regions", "voronoi", "-o", "regions.ply"}, "shlafman"},
+          {{"--regions", "shlafman", "-o", "regions.ply", "--step"}, "exclude each other"}}) {
+        program::Arguments arguments{"segment", "p.qch"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const program::Ended refused = run(arguments);
+        EXPECT_EQ(refused.code, exit_use) << words;
+        EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(run({"segment", "scan.ply", "--units", "mm", "--regions", "shlafman", "-o", "r.ply"}).code, exit_use);
+    EXPECT_FALSE(fs::exists(folder.path / "r.ply"));
 }
 
 TEST_F(PlaneOptions, NoneAreProposedByDefault) {

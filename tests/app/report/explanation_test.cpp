@@ -38,7 +38,7 @@ TEST(Explanation, CallsAPlaneTheOperatorsOwnOnlyIfItIs) {
     const std::vector<Ranked> others{ranked(2, 0), ranked(3, 1)};
     EXPECT_TRUE(says(cut_by_plane(own_index, 2.5, others), "the operator's own"));
     EXPECT_TRUE(says(cut_by_plane(own_index, 2.5, {}), "the operator's own"));
-    for (const int kind : {0, refined_index, symmetry_index, given_index, mirror_index}) {
+    for (const int kind : {0, refined_index, symmetry_index, given_index, mirror_index, refined_given_index}) {
         const Explanation e = cut_by_plane(kind, 2.5, others);
         EXPECT_FALSE(says(e, "operator")) << describe(e);
         EXPECT_FALSE(says(cut_by_plane(kind, 2.5, {}), "operator")) << describe(e);
@@ -61,6 +61,13 @@ TEST(Explanation, CallsAPlaneTheBestOnlyIfNoOtherCostsLess) {
     EXPECT_TRUE(says(dear, "the best of them would cost 3.000 less")) << describe(dear);
     const Explanation only = cut_by_plane(0, 2, {ranked(2, 0)});
     EXPECT_EQ(describe(only), "The plane is the only candidate that parts the piece.");
+}
+
+TEST(Explanation, NamesTheMethodThatProposedAPlane) {
+    Explanation e = cut_by_plane(refined_given_index, 1, {ranked(2, 0), ranked(3, 1)});
+    EXPECT_FALSE(says(e, "proposed"));
+    e.proposer = "shlafman";
+    EXPECT_TRUE(says(e, "It was proposed by shlafman, along a border between two regions of the scan."));
 }
 
 // The row of the chosen plane, from 1; its total puts it there.

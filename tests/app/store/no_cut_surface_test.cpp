@@ -58,7 +58,7 @@ struct NoCutSurfaceFiles : ::testing::Test {
         c.settings.candidates.normals = CandidateNormals::sphere;
         c.settings.candidates.offset_step_mm = 60;
         c.settings.candidates.takes_symmetry = true;
-        c.settings.candidates.given = {canonical({{0, 1, 1}, 17.25})};
+        c.settings.candidates.given = {{canonical({{0, 1, 1}, 17.25})}, {canonical({{1, 0, 0}, 3}), "shlafman"}};
         c.settings.stop.min_cuts = 2;
         return c;
     }

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "segment/mesh/measure.h"
 #include "tests/segment/regions/region_shapes.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -42,6 +44,18 @@ TEST(RegionMethods, ASmallScanIsItsOwnCopy) {
     const ScanRegions regions = scan_regions(boxes.mesh, *region_method("garland"));
     EXPECT_EQ(regions.copy, boxes.mesh);
     EXPECT_EQ(on_scan(regions, boxes.mesh), regions.labels);
+}
+
+TEST(RegionMethods, DivideTheLargestSolidAndTheOthersAreOfTheNearestRegion) {
+    const region_shapes::Shape boxes = region_shapes::two_boxes();
+    const Box box = bounds(boxes.mesh);
+    const Vec3 beside = box.max + Vec3{1, 1, 1};
+    const TriangleMesh two = shapes::joined({shapes::box(beside, beside + Vec3{0.1, 0.1, 0.1}), boxes.mesh});
+    const ScanRegions alone = scan_regions(boxes.mesh, *region_method("garland"));
+    const ScanRegions regions = scan_regions(two, *region_method("garland"));
+    EXPECT_EQ(regions.labels, alone.labels);
+    EXPECT_EQ(regions.copy.triangles.size(), boxes.mesh.triangles.size());
+    EXPECT_EQ(on_scan(regions, two).count, alone.labels.count);
 }
 
 TEST(RegionMethods, StopWhenTheyAreCancelled) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/units.h"
 #include "segment/regions/labelling.h"
 #include "tests/segment/regions/region_shapes.h"
 #include "tests/shapes.h"
@@ -81,7 +82,9 @@ TEST(RegionPlanes, LieAtBothEndsOfTheBarOfADumbbell) {
             bool is_found = false;
             for (const BorderPlane& border : found.planes) {
                 const Plane& plane = border.plane;
-                is_found |= plane.normal.x > std::cos(0.05) && std::abs(plane.offset - end) < 0.02 * dumbbell.length;
+                const double along_axis = plane.offset / plane.normal.x;  // where it meets the axis of the bar
+                is_found |=
+                    plane.normal.x > std::cos(5 * degree) && std::abs(along_axis - end) < 0.02 * dumbbell.length;
             }
             EXPECT_TRUE(is_found) << end;
         }

@@ -48,11 +48,11 @@ TEST(FurtherCandidates, AreTheSymmetryPlaneGivenPlanesAndMirrorImagesOfCuts) {
     CandidateOptions options;
     EXPECT_TRUE(further_candidates(segmentation, 0, options).empty());
     options.symmetry = tilted;
-    options.given = {canonical({{0, 0, 1}, 1}), canonical({{0, 0, 1}, 500})};
+    options.given = {{canonical({{0, 0, 1}, 1})}, {canonical({{0, 0, 1}, 500})}};
     for (std::size_t piece = 0; piece < segmentation.pieces.size(); ++piece) {
         const std::vector<Candidate> found = further_candidates(segmentation, piece, options);
         ASSERT_EQ(found.size(), 3U) << "one given plane misses";
-        const Plane expected[] = {tilted.plane, options.given[0], reflected(first, tilted.plane)};
+        const Plane expected[] = {tilted.plane, options.given[0].plane, reflected(first, tilted.plane)};
         const std::pair<int, int> index[] = {{symmetry_index, 0}, {given_index, 0}, {mirror_index, 1}};
         for (std::size_t i = 0; i < found.size(); ++i) {
             EXPECT_LT(norm(found[i].plane.normal - expected[i].normal), 1e-12);
@@ -99,8 +99,8 @@ TEST(FurtherCandidates, OfAPieceRankedByReachAreJudgedByTheirReach) {
     const Vec3 axis = canonical({cache.box(piece).axis[0], 0}).normal;
     const Extent range = extent(*piece.mesh, axis);
     const auto best = std::find_if(without.begin(), without.end(), [](const Ranked& r) { return r.normal_index >= 0; });
-    settings.candidates.given = {{best->plane.normal, best->plane.offset + 1e-3 * range.size()},
-                                 {axis, range.low + 0.02 * range.size()}};
+    settings.candidates.given = {{{best->plane.normal, best->plane.offset + 1e-3 * range.size()}},
+                                 {{axis, range.low + 0.02 * range.size()}}};
     const std::vector<Ranked> with = rank(segmentation, 0, settings, cache, {});
     const std::vector<Candidate> given = further_candidates(segmentation, 0, settings.candidates);
     ASSERT_EQ(given.size(), 2U);
@@ -208,7 +208,7 @@ TEST(FurtherCandidates, ABeamOverAllPlanesIsTheSameForAnyNumberOfThreads) {
     const TriangleMesh mesh = shapes::rotated(shapes::torus({0, 0, 0}, 40, 12), {1, 2, 3}, 0.5);
     SearchSettings settings = of_sphere(4);
     settings.candidates.symmetry = symmetry_plane(mesh, {1'000, 100, 4, 0.01});
-    settings.candidates.given = {canonical({{0, 0, 1}, 1})};
+    settings.candidates.given = {{canonical({{0, 0, 1}, 1})}};
     settings.stop.min_cuts = 3;
     settings.beam = 3;
     const auto with = [&](std::size_t threads) {
@@ -222,6 +222,24 @@ TEST(FurtherCandidates, ABeamOverAllPlanesIsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.size(), 3U);
     EXPECT_TRUE(with(2) == one);
     EXPECT_TRUE(with(3) == one);
+}
+
+TEST(Proposer, IsThatOfAGivenPlaneAlsoIfItWasRefined) {
+    CandidateOptions options;
+    options.given = {{canonical({{0, 0, 1}, 1})}, {canonical({{0, 1, 0}, 1}), "shlafman"}};
+    Ranked plane;
+    for (const int kind : {given_index, refined_given_index}) {
+        plane.normal_index = kind;
+        plane.offset_index = 0;
+        EXPECT_EQ(proposer_of(plane, options), "");
+        plane.offset_index = 1;
+        EXPECT_EQ(proposer_of(plane, options), "shlafman");
+        plane.offset_index = 2;  // of other settings
+        EXPECT_EQ(proposer_of(plane, options), "");
+    }
+    plane.normal_index = refined_index;
+    plane.offset_index = 1;
+    EXPECT_EQ(proposer_of(plane, options), "");
 }
 
 }  // namespace
