@@ -142,12 +142,11 @@ Run run_of(const TriangleMesh& scan, SearchSettings settings, const std::string&
         if (std::ranges::find(read_after, now.cuts.size()) == read_after.end()) return;
         const double reads = process_cpu_s();
         State state{now.cuts.size(), now.pieces.size(), cost(now, settings.objectives, cache), 0, 0};
-        double scan_mm2 = 0;
+        const double scan_mm2 = scan_area_mm2(now.pieces.front());
         for (const Piece& piece : now.pieces) {
             const AreaOnBase access = area_on_best_base(piece, settings.objectives.tilt_deg);
             state.unreachable += access.unreachable_mm2;
             state.to_mill += access.area_mm2;
-            scan_mm2 += scan_area_mm2(piece);
         }
         state.unreachable /= scan_mm2;
         state.to_mill /= scan_mm2;

@@ -22,7 +22,7 @@ class Readme(unittest.TestCase):
         setting = ("#", "set ", "cd ")
         run = [line for line in script if line.strip() and not line.startswith(setting)]
         self.assertEqual(len(two_commands()), 2)
-        self.assertEqual(run, [*two_commands(), "scripts/check tidy-new age"])
+        self.assertEqual(run, [*two_commands(), "scripts/check tidy-new age console"])
 
     def test_the_parts_that_ci_runs_are_of_scripts_check(self):
         check = (ROOT / "scripts" / "check").read_text(encoding="utf-8")

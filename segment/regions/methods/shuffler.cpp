@@ -169,7 +169,7 @@ class PatchGrowth {
             }
         }
         std::ranges::sort(ring);
-        ring.erase(std::ranges::unique(ring).begin(), ring.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
         return ring;
     }
 

@@ -37,7 +37,8 @@ TEST(ConvexHull, OfPointsInAPlaneHasNoVolume) {
     std::vector<Vec3> points;
     for (int i = 0; i < 25; ++i) {
         const double x = i % 5;
-        const double y = static_cast<double>(i / 5);
+        const int row = i / 5;
+        const double y = row;
         points.push_back({x, y, 0.3 * x - 0.7 * y});
     }
     for (const std::size_t count : {0, 1, 2, 3, 25}) {
@@ -53,7 +54,11 @@ TEST(ConvexHull, OfNearlyFlatPatchesIsFound) {
     std::normal_distribution<double> noise(0, 1e-13);
     for (int round = 0; round < 200; ++round) {
         std::vector<Vec3> points;
-        for (int i = 0; i < 60; ++i) points.push_back({1.0 * (i % 6), 1.0 * (i / 6 % 5), noise(random)});
+        for (int i = 0; i < 60; ++i) {
+            const int column = i % 6;
+            const int row = i / 6 % 5;
+            points.push_back({1.0 * column, 1.0 * row, noise(random)});
+        }
         for (int i = 0; i < round % 7; ++i) points.push_back({2.0, 2.0, 1.0 + i});
         const ConvexHull hull = convex_hull_of(points);
         EXPECT_EQ(hull.sides.empty(), round % 7 == 0) << round;

@@ -18,7 +18,8 @@ TEST(Moments, OfATriangleAreThoseOfManyPointsOfIt) {
         for (int j = 0; j < 2 * (n - i) - 1; ++j) {  // the middles of n^2 equal triangles
             const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
             const double u = (i + third) / n;
-            const double v = (j / 2 + third) / n;
+            const int pair = j / 2;
+            const double v = (pair + third) / n;
             sampled.add(corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]), share);
         }
     }
