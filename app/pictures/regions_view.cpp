@@ -19,15 +19,6 @@ namespace {
 
 constexpr std::size_t colours = 12;  // those of piece_colour() that differ
 constexpr Rgb paper{255, 255, 255};
-constexpr TwoSidesLayout layout{.view_width = 1000,
-                                .view_height = 900,
-                                .legend_height = 60,
-                                .square = 24,
-                                .letter_height = 15,
-                                .letter_width = 11.8,
-                                .left_of_legend = 30,
-                                .after_square = 10,
-                                .after_name = 30};
 
 // Per region the first colour that no region before has which touches it, counted on from the region's number so that
 // all colours are used.
@@ -62,7 +53,7 @@ Bytes picture_of(const ScanRegions& regions, const FaceGraph& graph, const std::
     mesh.mesh = &regions.copy;
     mesh.palette = palette;
     mesh.colour_of = of;
-    return draw_two_sides({&mesh, 1}, std::array{LegendEntry{paper, sentence}}, layout, context);
+    return draw_two_sides({&mesh, 1}, std::array{LegendEntry{paper, sentence}}, whole_scan_layout, context);
 }
 
 Bytes ply_of(const ScanRegions& regions, const TriangleMesh& scan) {

@@ -14,16 +14,6 @@
 namespace qchopper {
 namespace {
 
-constexpr TwoSidesLayout layout{.view_width = 1000,
-                                .view_height = 900,
-                                .legend_height = 60,
-                                .square = 24,
-                                .letter_height = 15,
-                                .letter_width = 11.8,
-                                .left_of_legend = 30,
-                                .after_square = 10,
-                                .after_name = 30};
-
 // In the order of SurfaceState; then the base.
 std::array<LegendEntry, base_state + 1> colours(bool narrow_counts) {
     const auto of = [&](SurfaceState state, const char* name) {
@@ -80,7 +70,7 @@ Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shif
         meshes[p].palette = palette;
         meshes[p].colour_of = indices[p];
     }
-    return draw_two_sides(meshes, legend_of(entries, occurs), layout, context);
+    return draw_two_sides(meshes, legend_of(entries, occurs), whole_scan_layout, context);
 }
 
 }  // namespace qchopper

@@ -32,6 +32,17 @@ struct TwoSidesLayout {
     double after_name = 0;      // between a name and the next square
 };
 
+// Of pictures of a whole scan or all its pieces: 2000 x 960.
+inline constexpr TwoSidesLayout whole_scan_layout{.view_width = 1000,
+                                                  .view_height = 900,
+                                                  .legend_height = 60,
+                                                  .square = 24,
+                                                  .letter_height = 15,
+                                                  .letter_width = 11.8,
+                                                  .left_of_legend = 30,
+                                                  .after_square = 10,
+                                                  .after_name = 30};
+
 // Throws InputError (use) if there is no triangle to draw, and Cancelled.
 Bytes draw_two_sides(std::span<const ColouredMesh> meshes, std::span<const LegendEntry> legend,
                      const TwoSidesLayout& layout, const Context& context = {});
