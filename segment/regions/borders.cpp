@@ -2,32 +2,32 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "segment/mesh/connectivity/disjoint_sets.h"
 
 namespace qchopper {
-namespace {
 
-// Appends the connected parts of the edges between two regions.
-void append_parts(const FaceGraph& graph, const RegionBorder& whole, std::vector<RegionBorder>& parts) {
-    DisjointSets sets(whole.edges.size());
+std::vector<RegionBorder> connected_parts(const FaceGraph& graph, const RegionBorder& border) {
+    DisjointSets sets(border.edges.size());
     std::map<std::uint32_t, std::uint32_t> first_at;  // per point: the first edge there
-    for (std::uint32_t i = 0; i < whole.edges.size(); ++i) {
-        for (const std::uint32_t p : graph.edges[whole.edges[i]].point) {
+    for (std::uint32_t i = 0; i < border.edges.size(); ++i) {
+        for (const std::uint32_t p : graph.edges[border.edges[i]].point) {
             sets.unite(first_at.try_emplace(p, i).first->second, i);
         }
     }
     std::map<std::uint32_t, RegionBorder> by_root;  // a root is the least member
-    for (std::uint32_t i = 0; i < whole.edges.size(); ++i) by_root[sets.root(i)].edges.push_back(whole.edges[i]);
+    for (std::uint32_t i = 0; i < border.edges.size(); ++i) by_root[sets.root(i)].edges.push_back(border.edges[i]);
+    std::vector<RegionBorder> parts;
+    parts.reserve(by_root.size());
     for (auto& [root, part] : by_root) {
-        part.region = whole.region;
+        part.region = border.region;
         parts.push_back(std::move(part));
     }
+    return parts;
 }
-
-}  // namespace
 
 std::vector<RegionBorder> region_borders(const FaceGraph& graph, std::span<const std::uint32_t> of) {
     assert(of.size() == graph.size());
@@ -40,7 +40,7 @@ std::vector<RegionBorder> region_borders(const FaceGraph& graph, std::span<const
     std::vector<RegionBorder> parts;
     for (auto& [regions, border] : between) {
         border.region = regions;
-        append_parts(graph, border, parts);
+        std::ranges::move(connected_parts(graph, border), std::back_inserter(parts));
     }
     return parts;
 }

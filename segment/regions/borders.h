@@ -23,4 +23,7 @@ struct RegionBorder {
 // Edges that share a point are connected. O(edges log edges).
 std::vector<RegionBorder> region_borders(const FaceGraph& graph, std::span<const std::uint32_t> of);
 
+// The connected parts of edges between two regions, by the first edge of each. O(edges log edges).
+std::vector<RegionBorder> connected_parts(const FaceGraph& graph, const RegionBorder& border);
+
 }  // namespace qchopper

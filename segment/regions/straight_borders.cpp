@@ -53,20 +53,13 @@ class Straightener {
         }
     }
 
+    // The parts of the border between its sharp edges, each by itself.
     void straighten(const RegionBorder& border) {
-        const auto is_sharp = [&](std::uint32_t e) { return graph_.edges[e].turn >= max_chart_turn; };
-        if (std::ranges::any_of(border.edges, is_sharp)) return;
-        const auto ends = ends_of(graph_, border.edges);
-        if (!ends) return;
-        // Borders before this one may have moved it.
-        const auto is_still_there = [&](std::uint32_t e) {
-            const auto [f, g] = graph_.edges[e].face;
-            return std::minmax(of_[f], of_[g]) == std::minmax(border.region[0], border.region[1]);
-        };
-        if (!std::ranges::all_of(border.edges, is_still_there)) return;
-        const Edges path = shortest(border, *ends);
-        if (path.empty() || length_of(graph_, path) > (1 - least_gain) * length_of(graph_, border.edges)) return;
-        divide(border, path);
+        RegionBorder rounded{border.region, {}};
+        for (const std::uint32_t e : border.edges) {
+            if (graph_.edges[e].turn < max_chart_turn) rounded.edges.push_back(e);
+        }
+        for (const RegionBorder& part : connected_parts(graph_, rounded)) straighten_path(part);
     }
 
     const std::vector<std::uint32_t>& of() const { return of_; }
@@ -82,6 +75,20 @@ class Straightener {
     }
     bool is_point_inside(const RegionBorder& border, std::uint32_t point) const {
         return std::ranges::all_of(at_[point], [&](std::uint32_t e) { return is_inside(border, e); });
+    }
+
+    void straighten_path(const RegionBorder& border) {
+        const auto ends = ends_of(graph_, border.edges);
+        if (!ends) return;
+        // Borders before this one may have moved it.
+        const auto is_still_there = [&](std::uint32_t e) {
+            const auto [f, g] = graph_.edges[e].face;
+            return std::minmax(of_[f], of_[g]) == std::minmax(border.region[0], border.region[1]);
+        };
+        if (!std::ranges::all_of(border.edges, is_still_there)) return;
+        const Edges path = shortest(border, *ends);
+        if (path.empty() || length_of(graph_, path) > (1 - least_gain) * length_of(graph_, border.edges)) return;
+        divide(border, path);
     }
 
     // Empty: there is none.

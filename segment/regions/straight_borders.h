@@ -1,4 +1,4 @@
-// Straightens the borders between regions: each open border becomes a shortest path along edges between its ends.
+// Straightens the borders between regions: what of them is open becomes a shortest path along edges between its ends.
 //
 // P. Sander, J. Snyder, S. Gortler and H. Hoppe, "Texture mapping progressive meshes" (2001). Tests:
 // tests/segment/regions/straight_borders_test.cpp.
@@ -9,11 +9,11 @@
 
 namespace qchopper {
 
-// The ends stay, and the path stays within the two regions. A border stays as it is if it is closed, if it touches
-// itself, if it has an edge that turns by max_chart_turn (labelling.h) or more, because such an edge is where it
-// belongs, and where no shorter path leaves both regions connected. Borders in the order of their regions, each with
-// those before as they became. As many regions as before. O(triangles log triangles) for each border of the two
-// regions.
+// The ends stay, and the path stays within the two regions. Edges that turn by max_chart_turn (labelling.h) or more
+// stay too, because a border belongs there; what lies between them is straightened part by part. A part stays as it is
+// if it is closed, if it touches itself, and where no shorter path leaves both regions connected. Borders in the order
+// of their regions, each with those before as they became. As many regions as before. O(triangles log triangles) for
+// each part of a border of the two regions.
 Labels with_straight_borders(const FaceGraph& graph, const Labels& labels);
 
 }  // namespace qchopper

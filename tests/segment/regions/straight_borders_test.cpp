@@ -63,6 +63,37 @@ TEST(StraightBorders, ThatAreClosedOrSharpStay) {
     EXPECT_EQ(with_straight_borders(round, numbered(halves)), numbered(halves));
 }
 
+// The lower half lies flat, the upper half stands up. The border zigzags in both, and follows the fold between them.
+TEST(StraightBorders, BetweenSharpEdgesAreStraightenedPartByPart) {
+    TriangleMesh mesh = square();
+    for (Vec3& p : mesh.points) {
+        if (p.y > 10) p = {p.x, 10, p.y - 10};
+    }
+    const FaceGraph graph = face_graph(mesh);
+    std::vector<std::uint32_t> of;
+    for (const Vec3& c : graph.centroid) {
+        const double y = c.y < 10 ? c.y : 10 + c.z;
+        const bool is_tooth = static_cast<int>(y) % 4 == 1 || static_cast<int>(y) % 4 == 2;
+        of.push_back(c.x < (y < 10 ? 5 : 15) - (is_tooth ? 2 : 0) ? 0 : 1);
+    }
+    const Labels zigzag = numbered(of);
+    EXPECT_GT(border_length(graph, zigzag), 40);
+    const Labels straight = with_straight_borders(graph, zigzag);
+    const auto fold = [&](const Labels& labels) {
+        double length = 0;
+        for (const DualEdge& edge : graph.edges) {
+            const bool is_border = labels.of[edge.face[0]] != labels.of[edge.face[1]];
+            if (is_border && edge.turn >= max_chart_turn) length += edge.length;
+        }
+        return length;
+    };
+    ASSERT_GT(fold(zigzag), 9);
+    EXPECT_NEAR(fold(straight), fold(zigzag), 1e-9);
+    // Along edges each half is at most ten cells long and two wide.
+    EXPECT_LT(border_length(graph, straight), 2 * (10 + 2) + fold(zigzag) + 1e-9);
+    EXPECT_EQ(straight.count, 2U);
+}
+
 TEST(StraightBorders, AreNotLongerAndDivideTheSameRegions) {
     const region_shapes::Shape hand = region_shapes::hand();
     const FaceGraph graph = face_graph(hand.mesh);
