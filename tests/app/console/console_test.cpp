@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <set>
 
@@ -26,7 +27,7 @@ struct ConsoleTest : ::testing::Test {
     WorkedProject p;
     Folder scratch;
     std::unique_ptr<Console> console;
-    int made = 0;
+    std::atomic<int> made = 0;
 
     void SetUp() override { start(false); }
     void start(bool is_read_only, std::chrono::milliseconds look_interval = 2s) {
