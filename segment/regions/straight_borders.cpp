@@ -1,6 +1,6 @@
-// A path is found by Dijkstra's algorithm over the points that lie inside the two regions; the triangles on its sides
-// are found by growth that does not cross it: O(n log n) for a border of two regions
-// with n triangles.
+// A path is found by Dijkstra's algorithm over the points that lie inside the two regions, as far as its other end; the
+// triangles on its sides are found by growth that does not cross it, over both regions: O(n) for each part of a border
+// that is moved, n the triangles of its regions, with marks that are cleared behind it.
 
 #include "segment/regions/straight_borders.h"
 
@@ -46,7 +46,12 @@ std::optional<std::array<std::uint32_t, 2>> ends_of(const FaceGraph& graph, cons
 class Straightener {
  public:
     Straightener(const FaceGraph& graph, const Labels& labels)
-        : graph_(graph), of_(labels.of), faces_(labels.count), at_(graph.mesh->points.size()) {
+        : graph_(graph),
+          of_(labels.of),
+          faces_(labels.count),
+          at_(graph.mesh->points.size()),
+          is_barrier_(graph.edges.size(), false),
+          side_(graph.size(), no_side) {
         for (std::uint32_t f = 0; f < graph.size(); ++f) faces_[of_[f]].push_back(f);
         for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
             for (const std::uint32_t p : graph.edges[e].point) at_[p].push_back(e);
@@ -55,11 +60,11 @@ class Straightener {
 
     // The parts of the border between its sharp edges, each by itself.
     void straighten(const RegionBorder& border) {
-        RegionBorder rounded{border.region, {}};
+        RegionBorder movable{border.region, {}};
         for (const std::uint32_t e : border.edges) {
-            if (graph_.edges[e].turn < max_chart_turn) rounded.edges.push_back(e);
+            if (graph_.edges[e].turn < max_chart_turn) movable.edges.push_back(e);
         }
-        for (const RegionBorder& part : connected_parts(graph_, rounded)) straighten_path(part);
+        for (const RegionBorder& part : connected_parts(graph_, movable)) straighten_path(part);
     }
 
     const std::vector<std::uint32_t>& of() const { return of_; }
@@ -124,39 +129,36 @@ class Straightener {
         return path;
     }
 
-    // Gives each part of the two regions to the one of which it had more, if that leaves both connected.
-    void divide(const RegionBorder& border, const Edges& path) {
-        std::vector<std::uint32_t> all = faces_[border.region[0]];
-        all.insert(all.end(), faces_[border.region[1]].begin(), faces_[border.region[1]].end());
-        // Other borders between the two keep what is on their sides apart.
+    // The edges that no side may grow across: the path, and other borders between the two regions, which keep what is
+    // on their sides apart.
+    Edges barrier_of(const RegionBorder& border, const Edges& path, const std::vector<std::uint32_t>& faces) const {
         Edges barrier = path;
-        for (const std::uint32_t f : all) {
+        for (const std::uint32_t f : faces) {
             for (const std::uint32_t e : graph_.around[f]) {
                 if (e == no_dual_edge || !is_inside(border, e)) continue;
                 const auto [a, b] = graph_.edges[e].face;
                 if (of_[a] != of_[b] && !std::ranges::binary_search(border.edges, e)) barrier.push_back(e);
             }
         }
-        std::ranges::sort(barrier);
-        std::map<std::uint32_t, std::uint32_t> part;
-        std::vector<std::array<double, 2>> areas;  // of each part, by the region that it had
+        return barrier;
+    }
+
+    // Gives each side of the path to the region of which it had more, if that leaves both connected.
+    void divide(const RegionBorder& border, const Edges& path) {
+        std::vector<std::uint32_t> all = faces_[border.region[0]];
+        all.insert(all.end(), faces_[border.region[1]].begin(), faces_[border.region[1]].end());
+        const Edges barrier = barrier_of(border, path, all);
+        for (const std::uint32_t e : barrier) is_barrier_[e] = true;
+        give_sides(border, all);
+        for (const std::uint32_t e : barrier) is_barrier_[e] = false;
+        for (const std::uint32_t f : all) side_[f] = no_side;
+    }
+
+    void give_sides(const RegionBorder& border, const std::vector<std::uint32_t>& all) {
+        std::vector<std::array<double, 2>> areas;  // of each side, by the region that it had
         for (const std::uint32_t first : all) {
-            if (part.contains(first)) continue;
-            const auto number = static_cast<std::uint32_t>(areas.size());
-            areas.push_back({0, 0});
-            std::vector<std::uint32_t> faces{first};
-            part[first] = number;
-            for (std::size_t i = 0; i < faces.size(); ++i) {
-                const std::uint32_t f = faces[i];
-                areas[number][of_[f] == border.region[0] ? 0 : 1] += graph_.area[f];
-                for (const std::uint32_t e : graph_.around[f]) {
-                    if (e == no_dual_edge || std::ranges::binary_search(barrier, e)) continue;
-                    const std::uint32_t next = graph_.across(e, f);
-                    if (!is_of(border, next) || part.contains(next)) continue;
-                    part[next] = number;
-                    faces.push_back(next);
-                }
-            }
+            if (side_[first] != no_side) continue;
+            areas.push_back(grow_side(border, first, static_cast<std::uint32_t>(areas.size())));
         }
         if (areas.size() != 2) return;
         const bool is_first_of_0 = areas[0][0] >= areas[0][1];
@@ -164,16 +166,39 @@ class Straightener {
         faces_[border.region[0]].clear();
         faces_[border.region[1]].clear();
         for (const std::uint32_t f : all) {
-            const std::size_t side = (part.at(f) == 0) == is_first_of_0 ? 0 : 1;
-            of_[f] = border.region[side];
+            of_[f] = border.region[(side_[f] == 0) == is_first_of_0 ? 0 : 1];
             faces_[of_[f]].push_back(f);
         }
     }
+
+    // What is reached from a triangle without crossing the barrier: its area, by the region that it had.
+    std::array<double, 2> grow_side(const RegionBorder& border, std::uint32_t first, std::uint32_t side) {
+        std::array<double, 2> area{};
+        std::vector<std::uint32_t> faces{first};
+        side_[first] = side;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const std::uint32_t f = faces[i];
+            area[of_[f] == border.region[0] ? 0 : 1] += graph_.area[f];
+            for (const std::uint32_t e : graph_.around[f]) {
+                if (e == no_dual_edge || is_barrier_[e]) continue;
+                const std::uint32_t next = graph_.across(e, f);
+                if (!is_of(border, next) || side_[next] != no_side) continue;
+                side_[next] = side;
+                faces.push_back(next);
+            }
+        }
+        return area;
+    }
+
+    static constexpr std::uint32_t no_side = 0xFFFFFFFF;
 
     const FaceGraph& graph_;
     std::vector<std::uint32_t> of_;
     std::vector<std::vector<std::uint32_t>> faces_;  // of each region
     std::vector<Edges> at_;                          // the edges at each point
+    // Of the border that is divided, cleared behind it: per edge, and per triangle.
+    std::vector<bool> is_barrier_;
+    std::vector<std::uint32_t> side_;
 };
 
 }  // namespace
