@@ -16,6 +16,7 @@ namespace {
 std::vector<std::filesystem::path> all_folders(const std::vector<std::filesystem::path>& wanted) {
     if (wanted.empty()) return journal_folders({});
     std::vector<std::filesystem::path> folders;
+    folders.reserve(wanted.size());
     for (const std::filesystem::path& one : wanted) folders.push_back(journal_folders(one).at(0));
     return folders;
 }
