@@ -10,6 +10,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/standard_input_lines.h"
+#include "app/dispatch/executed_program.h"
 #include "app/dispatch/signing.h"
 #include "app/dispatch/simulated_limits.h"
 #include "app/report/command_line_text.h"
@@ -24,7 +25,11 @@ namespace {
 
 CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& address) {
     CellSimOptions options;
-    if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
+    if (arguments.cell) {
+        const Cell cell = read_cell(*arguments.cell);
+        options.limits = simulated_limits(cell);
+        options.read_program = program_reader(cell);
+    }
     options.host = address.host;
     options.port = address.port;
     options.allow = checked_addresses(arguments.allow);

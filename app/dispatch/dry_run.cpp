@@ -2,6 +2,10 @@
 
 #include "app/dispatch/dry_run.h"
 
+#include <mutex>
+#include <utility>
+
+#include "app/dispatch/executed_program.h"
 #include "app/dispatch/proven_jobs.h"
 #include "app/dispatch/signing.h"
 #include "app/dispatch/simulated_limits.h"
@@ -45,6 +49,28 @@ void warn_of(const ProjectJobs& ordered, const ProjectContext& context) {
     }
 }
 
+// Programs that the cell could not execute. Its own threads tell of them.
+class ProgramFaults {
+ public:
+    ProgramReader told(ProgramReader read) {
+        if (!read) return read;
+        return [this, read = std::move(read)](const Bytes& job_file, const std::string& name) {
+            ReceivedProgram received = read(job_file, name);
+            const std::lock_guard lock(mutex_);
+            if (!received.fault.empty()) faults_.push_back(name + ": " + received.fault);
+            return received;
+        };
+    }
+    void warn(const ProjectContext& context) {
+        const std::lock_guard lock(mutex_);
+        for (const std::string& fault : faults_) context.warn(fault);
+    }
+
+ private:
+    std::mutex mutex_;
+    std::vector<std::string> faults_;
+};
+
 CellSimOptions simulated_cell(const Cell& cell, double speed, const std::filesystem::path& drop) {
     CellSimOptions options;
     options.drop_folder = drop;
@@ -62,7 +88,10 @@ DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context
     const ProjectJobs ordered = jobs_of(request.project, request.piece, context, true);
     warn_of(ordered, context);
     const TemporaryFolder drop("qchopper-dry-run-");
-    CellSim sim(simulated_cell(ordered.cell, request.speed, drop.path()));
+    CellSimOptions sim_options = simulated_cell(ordered.cell, request.speed, drop.path());
+    ProgramFaults program_faults;
+    sim_options.read_program = program_faults.told(program_reader(ordered.cell));
+    CellSim sim(std::move(sim_options));
     sim.start();
     context.message("dry run: a simulated cell inside this program, over TCP on 127.0.0.1:" +
                     std::to_string(sim.port()) + "; consent is given at once, nothing moves");
@@ -74,8 +103,9 @@ DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context
     options.timings.poll_s = 0.02;
     const TemporaryFolder state("qchopper-dry-run-journal-");
     Journal journal(state.path(), {ordered.cell.id, true, "dry-run"});
-    return {dispatch_jobs(ordered.jobs, bus, options, journal, context), ordered.jobs.size(),
-            next_step(ordered, request)};
+    std::vector<DispatchedJob> handed = dispatch_jobs(ordered.jobs, bus, options, journal, context);
+    program_faults.warn(context);
+    return {std::move(handed), ordered.jobs.size(), next_step(ordered, request)};
 }
 
 }  // namespace qchopper

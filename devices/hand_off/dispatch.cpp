@@ -15,9 +15,11 @@
 #include "devices/hand_off/drop_folder.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/hand_off/hand_off.h"
+#include "devices/hand_off/operator_text.h"
 #include "devices/hand_off/random.h"
 #include "devices/journal/journal.h"
 #include "devices/wire/device_error.h"
+#include "devices/wire/program_block.h"
 #include "devices/wire/ticket_signature.h"
 
 namespace qchopper {
@@ -206,8 +208,17 @@ class Dispatcher {
         if (input.status && input.status->job_id == plan_.ticket.job_id &&
             input.status->job_state == JobState::running) {
             context_.progress("% of the job", input.status->progress / 100U, 100);
+            show_chunk(*input.status);
         }
         return input;
+    }
+
+    // One line for each chunk in which the program is seen.
+    void show_chunk(const Status& status) {
+        const std::uint32_t chunk = chunk_of_block(status.block_no);
+        if (chunk == 0 || chunk == shown_chunk_) return;
+        shown_chunk_ = chunk;
+        context_.message(program_place(status));
     }
 
     // Ends early at a request to stop that the hand-off has not been passed yet.
@@ -246,6 +257,7 @@ class Dispatcher {
     std::string file_name_;
     StagedFile staged_;
     std::vector<std::string> log_;
+    std::uint32_t shown_chunk_ = 0;     // of the program
     std::exception_ptr journal_fault_;  // of the first event that could not be kept
     double began_s_ = clock_s();        // the last member: it needs the options
 };

@@ -77,6 +77,7 @@ Sentence remedy(AckResult refusal) {
         {AckResult::envelope, other_cell},
         {AckResult::stock_too_small, other_cell},
         {AckResult::tool, other_cell},
+        {AckResult::program_unreadable, "Read in the log of the cell which line it is; prepare the project again."},
         {AckResult::store_full, full_disk},
         {AckResult::store_io, full_disk},
         {AckResult::ticket_field, other_cell},

@@ -4,6 +4,9 @@
 
 #include <cstdio>
 
+#include "base/text.h"
+#include "devices/wire/program_block.h"
+
 namespace qchopper {
 
 const char* foam_in(PackState state) {
@@ -52,6 +55,17 @@ std::string in_words(CellCommand command) {
         if (row.command == command) return std::string(name(command)) + " (" + row.words + ")";
     }
     return name(command);
+}
+
+std::string program_place(const Status& status) {
+    const std::uint32_t chunk = chunk_of_block(status.block_no);
+    std::string text = chunk > 0 ? "chunk " + std::to_string(chunk) + ", line " : std::string("block ");
+    text += std::to_string(line_of_block(status.block_no)) + ", tool " + std::to_string(status.tool_no) + " at";
+    constexpr const char* axes[] = {" X ", " Y ", " Z "};
+    for (std::size_t axis = 0; axis < 3; ++axis) text += axes[axis] + fixed(status.tip[axis] / 100.0, 2);
+    text += " mm";
+    if (status.remaining_s == Status::unknown_s) return text;
+    return text + ", " + duration(status.remaining_s) + " left";
 }
 
 std::string dispatcher_name(std::uint32_t owner) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/sentence.h"
+#include "devices/wire/blocks.h"
 #include "devices/wire/packml.h"
 
 namespace qchopper {
@@ -16,6 +17,10 @@ const char* foam_in(PackState state);
 // What a command asks of the cell: "CLAIM (take this computer as its dispatcher)". The commands of PackML have their
 // names only, which say it.
 std::string in_words(CellCommand command);
+
+// Where the program of a running job is: "chunk 3, line 412, tool 2 at X 10.00 Y -4.50 Z 120.00 mm, 12 min left".
+// Without a chunk where the cell names none; the time only where the cell knows it.
+std::string program_place(const Status& status);
 
 // "dispatcher 0x1234ABCD", by its OWNER number.
 std::string dispatcher_name(std::uint32_t owner);

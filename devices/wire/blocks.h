@@ -41,6 +41,7 @@ struct Status {
     JobResult job_result = JobResult::none;
     std::uint16_t progress = 0;  // 0.01 %
     std::uint32_t elapsed_s = 0;
+    static constexpr std::uint32_t unknown_s = 0xFFFFFFFF;  // of remaining_s
     std::uint32_t remaining_s = 0;
     std::uint32_t block_no = 0;
     std::uint16_t tool_no = 0;

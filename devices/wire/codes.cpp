@@ -45,6 +45,7 @@ constexpr ResultCode result_table[] = {
     {rehearsal_required, "REHEARSAL_REQUIRED", "a rehearsal must pass first"},
     {job_id_reused, "JOB_ID_REUSED", "this job id was used before"},
     {stock_too_small, "STOCK_TOO_SMALL", "the piece does not fit into the stock"},
+    {program_unreadable, "PROGRAM_UNREADABLE", "the cell cannot execute the program of the job"},
     {token_bad, "TOKEN_BAD", "the start token is not the one that was given"},
     {already_finished, "ALREADY_FINISHED", "the job has run before"},
     {unknown_job, "UNKNOWN_JOB", "the cell does not know the job"},

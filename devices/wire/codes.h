@@ -110,6 +110,7 @@ enum class AckResult : std::uint16_t {
     rehearsal_required = 0x30C,
     job_id_reused = 0x30D,
     stock_too_small = 0x30E,
+    program_unreadable = 0x30F,
     token_bad = 0x401,
     already_finished = 0x402,
     unknown_job = 0x403,

@@ -154,6 +154,7 @@ struct CellSim::Parts {
 
     void turn_off() {
         report("power is off");
+        lose_power(cell, clock.now());
         is_off = true;
         on_at_ms.reset();
         server->set_power(false);
@@ -274,7 +275,10 @@ struct CellSim::Parts {
             report(fault.what());
             return {FileCheck::End::io_error, 0, {}};
         }
-        return {FileCheck::End::ok, bytes.size(), sha256(bytes)};
+        FileCheck found{FileCheck::End::ok, bytes.size(), sha256(bytes)};
+        const bool is_right = bytes.size() == task.ticket.file_size && found.sha256 == task.ticket.file_sha256;
+        if (is_right && options.read_program) found.program = options.read_program(bytes, task.ticket.file_name);
+        return found;
     }
 
     CellSimOptions options;

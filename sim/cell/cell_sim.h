@@ -28,6 +28,8 @@ struct CellSimOptions : ListenAt {
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
     // The keys whose signatures it takes, as they are now; called from the cell's threads. Empty: it has no list.
     std::function<std::vector<CellKey>()> trusted_keys;
+    // Reads the program of a job file that has come; it is then executed. Empty: jobs go on by their estimated time.
+    ProgramReader read_program;
     // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may
     // outlive the cell. Without it and on_question nobody consents.
     std::function<bool(const std::string& question)> ask;

@@ -18,6 +18,7 @@
 #include "devices/wire/codec.h"
 #include "devices/wire/ed25519.h"
 #include "sim/cell/faults.h"
+#include "sim/cell/program_run.h"
 
 namespace qchopper {
 
@@ -53,13 +54,21 @@ struct CellLimits {
 // The block on the table, as a person sees it. unknown: nobody has said; a consent then says that it is right.
 enum class BlockOnTable { unknown, none, fresh, used, moved };
 
-// What a person at the cell sets; power cuts do not change it.
+// How far the last job that was started has carved its block. The stock follows from it and the job file.
+struct CarvedSoFar {
+    Uuid job{};               // 0: nothing was carved
+    double run_s = 0;         // of the job
+    std::uint32_t block = 0;  // BLOCK_NO there
+};
+
+// What a person at the cell sets, and the block; power cuts do not change it.
 struct Surroundings {
     bool door_open = false;
     bool e_stop = false;
     bool local_control = false;
     bool tool_broken = false;
     BlockOnTable block = BlockOnTable::unknown;
+    CarvedSoFar carved;  // as of the end of a job, or of a power cut
     bool is_safe() const { return !door_open && !e_stop; }
 };
 
@@ -140,10 +149,12 @@ struct CellJob {
     std::int64_t token_until_ms = 0;
     std::uint32_t receipt = 0;  // of a rehearsal that passed
     TransferState transfer = TransferState::idle;
-    Bytes chunks;            // received so far
-    Sha256 stored_sha256{};  // of the copy that VERIFY found
-    double run_s = 0;        // carved until Execute was left last, in seconds of the job
-    bool cut_short = false;  // by the command Complete
+    Bytes chunks;             // received so far
+    Sha256 stored_sha256{};   // of the copy that VERIFY found
+    ReceivedProgram program;  // in that copy; without a run it goes on by the estimated time
+    double run_s = 0;         // carved until the state was entered, in seconds of the job
+    double stop_s = 0;        // of the job, where a Hold or Suspend that has come stops it: at the end of a line
+    bool cut_short = false;   // by the command Complete
     bool is_active() const { return state == JobState::running || state == JobState::interrupted; }
     bool is_waiting() const { return state == JobState::stored || state == JobState::prepared; }
     bool is_finished() const { return is_over(state); }
@@ -206,8 +217,9 @@ struct CellState {
 struct FileCheck {
     enum class End { ok, missing, io_error };
     End end = End::missing;
-    std::uint64_t size = 0;  // bytes
-    Sha256 sha256{};         // of the copy in the store, if its size is right
+    std::uint64_t size = 0;        // bytes
+    Sha256 sha256{};               // of the copy in the store, if its size is right
+    ReceivedProgram program = {};  // in it
 };
 
 // Called from the functions of machine.h, in their thread. Any of them may be empty.

@@ -45,6 +45,10 @@ constexpr NamedFault fault_rows[] = {
     {Fault::door_after_consent, "door-after-consent", "", 0, "the door is opened as soon as consent was given"},
     {Fault::tool_fault, "tool-fault", "block", 10, "the tool breaks at this program block"},
     {Fault::e_stop_at, "e-stop-at", "block", 10, "the emergency stop is pressed at this program block"},
+    {Fault::spindle_loses_speed, "spindle-loses-speed", "block", 10,
+     "the spindle loses its speed at this program block"},
+    {Fault::signal_falls, "signal-falls", "input", 0,
+     "the program finds this input missing where it waits for it; 0: whichever comes first"},
     {Fault::clock_jump, "clock-jump", "s", 86400, "the time of day jumps by so much"},
 };
 static_assert(std::size(fault_rows) == static_cast<std::size_t>(Fault::count));

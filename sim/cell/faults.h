@@ -49,6 +49,8 @@ enum class Fault : std::uint8_t {
     door_after_consent,
     tool_fault,
     e_stop_at,
+    spindle_loses_speed,
+    signal_falls,
     clock_jump,
     count
 };

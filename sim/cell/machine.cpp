@@ -161,7 +161,7 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     const CellJob& job = cell.job;
     if (job.state == JobState::none) return;
     const double run_s = cell::run_so_far_s(cell, now);
-    const double whole_s = job.ticket.estimated_time_s;
+    const double whole_s = cell::whole_run_s(cell);
     const double share = whole_s > 0 ? std::min(1.0, run_s / whole_s) : job.state == JobState::ended ? 1.0 : 0.0;
     s.job_id = job.ticket.job_id;
     s.token = job.token;
@@ -170,7 +170,7 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     s.progress = static_cast<std::uint16_t>(std::floor(10000 * share));
     s.elapsed_s = static_cast<std::uint32_t>(run_s);
     s.remaining_s = static_cast<std::uint32_t>(std::ceil(std::max(0.0, whole_s - run_s)));
-    s.block_no = cell::blocks_so_far(cell, now);
+    s.block_no = cell::block_now(cell, now);
     s.transfer_state = job.transfer;
     s.transfer_next = static_cast<std::uint32_t>(job.chunks.size());
     s.file_sha256 = job.stored_sha256;
@@ -178,7 +178,15 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     s.tool_no = job.ticket.tool_no;
     s.feed_override = 10000;
     s.spindle_rpm = cell.state == PackState::execute ? job.ticket.spindle_max_rpm : std::uint16_t{0};
-    // No program is read here: the tip moves in a straight line through the box of the piece.
+    if (job.program.run) {
+        const RunPlace place = place_at(*job.program.run, run_s);
+        s.tool_no = place.tool;
+        for (int axis = 0; axis < 3; ++axis) {
+            s.tip[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::lround(100 * place.tip[axis]));
+        }
+        return;
+    }
+    // Without a program the tip moves in a straight line through the box of the piece.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double from = job.ticket.box_min[axis];
         const double to = job.ticket.box_max[axis];

@@ -318,7 +318,7 @@ Answer prepare(CellState& cell, const Command& command, CellTime now, const Cell
     if (const auto fault = wrong_signature_now(cell, hooks)) return *fault;
     const bool needs_receipt = (ticket.requirements & 1U) != 0 || command.arg0 != 0;
     if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt)) return {rehearsal_required};
-    if (const auto fault = does_not_fit(ticket, cell.limits)) return *fault;
+    if (const auto fault = unfit_job(cell)) return *fault;
     if (cell.surroundings.tool_broken) return {tool, address_of(ticket_block, "TOOL_NO")};
     return wait_for(cell, command, Pending::Waits::consent, now, consent_question(cell));
 }

@@ -14,15 +14,35 @@ namespace cell {
 
 constexpr double blocks_per_s = 10;
 
+namespace {
+
+// The states in which a program is executed to the end of its line.
+bool is_stopping_at_line(const CellState& cell, PackState state) {
+    return cell.job.program.run && (state == PackState::holding || state == PackState::suspending);
+}
+
+}  // namespace
+
+double whole_run_s(const CellState& cell) {
+    return cell.job.program.run ? cell.job.program.run->seconds : cell.job.ticket.estimated_time_s;
+}
+
 double run_so_far_s(const CellState& cell, CellTime now) {
-    const double whole_s = cell.job.ticket.estimated_time_s;
-    if (cell.state != PackState::execute || !cell.job.is_active()) return cell.job.run_s;
+    const bool stops = is_stopping_at_line(cell, cell.state);
+    if ((cell.state != PackState::execute && !stops) || !cell.job.is_active()) return cell.job.run_s;
     const double here_s = static_cast<double>(now.steady_ms - cell.state_since_ms) / 1000 * cell.limits.speed;
-    return std::min(whole_s, cell.job.run_s + std::max(0.0, here_s));
+    return std::min(stops ? cell.job.stop_s : whole_run_s(cell), cell.job.run_s + std::max(0.0, here_s));
+}
+
+void pass_run(CellState& cell, CellTime now) {
+    if (cell.state != PackState::execute) return;
+    cell.job.run_s = run_so_far_s(cell, now);
+    cell.state_since_ms = now.steady_ms;
 }
 
 void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
-    if (cell.state == PackState::execute) cell.job.run_s = run_so_far_s(cell, {at_ms, 0});
+    cell.job.run_s = run_so_far_s(cell, {at_ms, 0});
+    if (is_stopping_at_line(cell, to)) cell.job.stop_s = line_end(*cell.job.program.run, cell.job.run_s);
     assert(to != PackState::undefined);
     cell.state_before = cell.state;
     cell.state = to;
@@ -30,6 +50,10 @@ void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
     if (!cell.job.is_active()) return;
     const bool is_running = to == PackState::starting || to == PackState::execute || to == PackState::completing;
     cell.job.state = is_running ? JobState::running : JobState::interrupted;
+}
+
+void note_carved(CellState& cell, CellTime now) {
+    cell.surroundings.carved = {cell.job.ticket.job_id, run_so_far_s(cell, now), block_now(cell, now)};
 }
 
 void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks) {
@@ -41,20 +65,30 @@ void end_job(CellState& cell, JobState state, JobResult result, CellTime now, co
     record.state = state;
     record.result = result;
     record.end_time_ms = unix_ms(cell, now);
-    record.last_block = blocks_so_far(cell, now);
+    note_carved(cell, now);
+    record.last_block = cell.surroundings.carved.block;
     if (cell.surroundings.block == BlockOnTable::fresh) cell.surroundings.block = BlockOnTable::used;
     if (!save(cell, cell.memory, hooks)) cell.warning = true;
     log(cell, hooks, "job " + to_text(cell.job.ticket.job_id) + " " + name(state) + ": " + name(result));
 }
 
-std::uint32_t blocks_so_far(const CellState& cell, CellTime now) {
-    return static_cast<std::uint32_t>(std::floor(blocks_per_s * run_so_far_s(cell, now)));
+std::uint32_t block_now(const CellState& cell, CellTime now) {
+    const double run_s = run_so_far_s(cell, now);
+    if (cell.job.program.run) return place_at(*cell.job.program.run, run_s).block;
+    return static_cast<std::uint32_t>(std::floor(blocks_per_s * run_s));
+}
+
+std::optional<CommandAnswer> unfit_job(const CellState& cell) {
+    if (const auto fault = does_not_fit(cell.job.ticket, cell.limits)) return fault;
+    const ReceivedProgram& program = cell.job.program;
+    if (program.fault.empty()) return std::nullopt;
+    return CommandAnswer{AckResult::program_unreadable, program.fault_line};
 }
 
 void raise_alarm(CellState& cell, const CellAlarm& alarm, JobResult result, CellTime now, const CellHooks& hooks) {
     if (cell.alarm.code == 0) {
         cell.alarm = alarm;
-        cell.alarm.block = cell.job.is_active() ? blocks_so_far(cell, now) : 0;
+        cell.alarm.block = cell.job.is_active() ? block_now(cell, now) : 0;
     }
     log(cell, hooks, "alarm: " + alarm.text);
     drop_preparation(cell, AckResult::safety_open);
@@ -125,7 +159,7 @@ void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
         return consent_given(cell, cell.pending->number, yes, now, hooks);
     }
     if (cell.pending->waits != Pending::Waits::rehearsal || now.steady_ms < cell.pending->due_ms) return;
-    if (const auto fault = does_not_fit(cell.job.ticket, cell.limits)) {
+    if (const auto fault = unfit_job(cell)) {
         cell.job.result = JobResult::rehearsal_failed;
         settle(cell, fault->result, fault->detail);
     } else {
@@ -137,9 +171,28 @@ void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
 
 // When the present state ends by itself. Precondition: it is an acting state.
 std::int64_t state_ends_ms(const CellState& cell) {
-    if (cell.state != PackState::execute) return cell.state_since_ms + cell.limits.acting_ms;
-    const double left_s = cell.job.ticket.estimated_time_s - cell.job.run_s;
-    return cell.state_since_ms + static_cast<std::int64_t>(std::ceil(1000 * left_s / cell.limits.speed));
+    const auto after_ms = [&](double job_s) {
+        return static_cast<std::int64_t>(std::ceil(1000 * job_s / cell.limits.speed));
+    };
+    const double run_s = cell.job.run_s;
+    if (cell.state == PackState::execute) return cell.state_since_ms + after_ms(whole_run_s(cell) - run_s);
+    const std::int64_t line_ms = is_stopping_at_line(cell, cell.state) ? after_ms(cell.job.stop_s - run_s) : 0;
+    return cell.state_since_ms + std::max(cell.limits.acting_ms, line_ms);
+}
+
+// When a fault comes at a block, in seconds of the job. Nothing: the program does not come there any more.
+std::optional<double> block_begins_s(const CellState& cell, std::int64_t block) {
+    if (!cell.job.program.run) return std::max(cell.job.run_s, static_cast<double>(block) / blocks_per_s);
+    return begin_of_block(*cell.job.program.run, static_cast<std::uint32_t>(block), cell.job.run_s);
+}
+
+// The same of the next line that waits for an input; 0: for any.
+std::optional<double> waits_at_s(const CellState& cell, std::int64_t input) {
+    if (!cell.job.program.run) return std::nullopt;
+    for (const RunWait& wait : cell.job.program.run->waits) {
+        if (wait.at_s >= cell.job.run_s && (input == 0 || wait.input == input)) return wait.at_s;
+    }
+    return std::nullopt;
 }
 
 // The alarm that a fault raises in this job, if it comes before Execute ends at `ends_ms`, and when.
@@ -150,10 +203,13 @@ struct DueAlarm {
 std::optional<DueAlarm> due_alarm(const CellState& cell, std::int64_t ends_ms) {
     std::optional<DueAlarm> first;
     if (cell.state != PackState::execute || !cell.job.is_active()) return first;
-    for (const Fault fault : {Fault::tool_fault, Fault::e_stop_at}) {
-        const auto block = armed(cell.faults, fault);
-        if (!block) continue;
-        const double left_s = std::max(0.0, static_cast<double>(*block) / blocks_per_s - cell.job.run_s);
+    for (const Fault fault : {Fault::tool_fault, Fault::e_stop_at, Fault::spindle_loses_speed, Fault::signal_falls}) {
+        const auto number = armed(cell.faults, fault);
+        if (!number) continue;
+        const std::optional<double> at_s =
+            fault == Fault::signal_falls ? waits_at_s(cell, *number) : block_begins_s(cell, *number);
+        if (!at_s) continue;
+        const double left_s = *at_s - cell.job.run_s;
         const auto at_ms =
             cell.state_since_ms + static_cast<std::int64_t>(std::ceil(1000 * left_s / cell.limits.speed));
         if (at_ms < ends_ms && (!first || at_ms < first->at_ms)) first = DueAlarm{fault, at_ms};
@@ -162,8 +218,11 @@ std::optional<DueAlarm> due_alarm(const CellState& cell, std::int64_t ends_ms) {
 }
 
 void raise_due(CellState& cell, DueAlarm due, CellTime now, const CellHooks& hooks) {
-    if (!take(cell.faults, due.fault)) return;
+    const auto number = take(cell.faults, due.fault);
+    if (!number) return;
     now.steady_ms = due.at_ms;
+    if (due.fault == Fault::signal_falls) return miss_input(cell, static_cast<std::uint32_t>(*number), now, hooks);
+    if (due.fault == Fault::spindle_loses_speed) return lose_spindle_speed(cell, now, hooks);
     if (due.fault == Fault::e_stop_at) return press_e_stop(cell, true, now, hooks);
     set_tool_broken(cell, true, now, hooks);
 }
@@ -236,6 +295,7 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
     else if (check.sha256 != ticket.file_sha256)
         result = AckResult::hash_mismatch;
     cell.job.stored_sha256 = check.end == FileCheck::End::ok ? check.sha256 : Sha256{};
+    cell.job.program = result == AckResult::ok ? check.program : ReceivedProgram{};
     cell.job.transfer = result == AckResult::ok             ? TransferState::complete
                         : result == AckResult::file_missing ? TransferState::idle
                                                             : TransferState::hash_mismatch;
@@ -245,6 +305,9 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
         cell.job.transfer = TransferState::open;
     }
     cell::log(cell, hooks, std::string("VERIFY ") + ticket.file_name + ": " + name(result));
+    if (!cell.job.program.fault.empty()) {
+        cell::log(cell, hooks, "the program of " + ticket.file_name + " cannot be executed: " + cell.job.program.fault);
+    }
     cell::settle(cell, result);
 }
 

@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint32_t e_stop_alarm = 1;
 constexpr std::uint32_t door_alarm = 2;
 constexpr std::uint32_t tool_alarm = 3;
+constexpr std::uint32_t spindle_alarm = 4;
+constexpr std::uint32_t input_alarm = 5;
 
 bool is_at_rest(PackState state) {
     return state == PackState::idle || state == PackState::stopped || state == PackState::complete ||
@@ -42,6 +44,17 @@ void set_tool_broken(CellState& cell, bool is_broken, CellTime now, const CellHo
     cell::log(cell, hooks, is_broken ? "the tool is broken" : "the tool is sound");
     if (!is_broken || !cell.job.is_active()) return;
     cell::raise_alarm(cell, {tool_alarm, 0, "tool broken"}, JobResult::tool, now, hooks);
+}
+
+void lose_spindle_speed(CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (!cell.job.is_active()) return;
+    cell::raise_alarm(cell, {spindle_alarm, 0, "spindle speed"}, JobResult::tool, now, hooks);
+}
+
+void miss_input(CellState& cell, std::uint32_t input, CellTime now, const CellHooks& hooks) {
+    if (!cell.job.is_active()) return;
+    const std::string name = input > 0 ? "input " + std::to_string(input) : std::string("input");
+    cell::raise_alarm(cell, {input_alarm, 0, name + " missing"}, JobResult::aborted, now, hooks);
 }
 
 void set_local_control(CellState& cell, bool is_local, const CellHooks& hooks) {
@@ -101,6 +114,7 @@ void arm(CellState& cell, const ArmedFault& fault, CellTime now) {
                 cell.heartbeat_offset + static_cast<std::uint16_t>(fault.number) - heartbeat_of(cell, now));
             return;
         default:
+            cell::pass_run(cell, now);
             cell.faults.armed.push_back(fault);
     }
 }
@@ -109,6 +123,10 @@ void disarm_all(CellState& cell) {
     cell.faults.armed.clear();
     cell.power.at_event = 0;
     cell.frozen_heartbeat.reset();
+}
+
+void lose_power(CellState& cell, CellTime now) {
+    if (cell.job.is_active()) cell::note_carved(cell, now);
 }
 
 CellMemory memory_after(PowerCut::Store store, const CellMemory& saved) {
@@ -125,6 +143,9 @@ CellState power_on(const CellState& before, CellMemory memory, std::uint64_t see
                    const CellHooks& hooks) {
     CellTime shown = now;
     shown.unix_ms = cell::unix_ms(before, now);
+    const CarvedSoFar& carved = before.surroundings.carved;
+    const auto cut_off = memory.jobs.find(carved.job);
+    if (cut_off != memory.jobs.end() && !is_over(cut_off->second.state)) cut_off->second.last_block = carved.block;
     CellState cell = boot(before.limits, std::move(memory), seed, shown, hooks);
     cell.surroundings = before.surroundings;
     cell.faults = before.faults;

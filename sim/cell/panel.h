@@ -15,6 +15,10 @@ void open_door(CellState& cell, bool is_open, CellTime now, const CellHooks& hoo
 void press_e_stop(CellState& cell, bool is_pressed, CellTime now, const CellHooks& hooks);
 // A tool that breaks while a job runs aborts it with the result "tool"; later, PREPARE is refused.
 void set_tool_broken(CellState& cell, bool is_broken, CellTime now, const CellHooks& hooks);
+// The program stops where it is: the spindle loses its speed, result "tool"; the input that it waits for does not come,
+// result "aborted". Nothing while no job runs.
+void lose_spindle_speed(CellState& cell, CellTime now, const CellHooks& hooks);
+void miss_input(CellState& cell, std::uint32_t input, CellTime now, const CellHooks& hooks);
 // Under local control every command that acts on machine or job is refused, and a consent is taken back.
 void set_local_control(CellState& cell, bool is_local, const CellHooks& hooks);
 void set_block(CellState& cell, BlockOnTable block, const CellHooks& hooks);
@@ -29,6 +33,9 @@ void arm(CellState& cell, const ArmedFault& fault, CellTime now);
 // No fault is armed any more, and the heartbeat goes on.
 void disarm_all(CellState& cell);
 
+// Power goes: the block stays as it was carved, and the controller's retentive memory keeps the line. To be called at
+// that moment.
+void lose_power(CellState& cell, CellTime now);
 // After a power cut: what the store holds then, and the cell that starts with it. Faults and surroundings stay.
 CellMemory memory_after(PowerCut::Store store, const CellMemory& saved);
 CellState power_on(const CellState& before, CellMemory memory, std::uint64_t seed, CellTime now,

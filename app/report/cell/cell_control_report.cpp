@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/uuid.h"
 #include "devices/hand_off/operator_text.h"
+#include "devices/wire/program_block.h"
 
 namespace qchopper {
 namespace {
@@ -30,10 +31,15 @@ std::string owner_text(const Status& status) {
     return status.owner_held == 0 ? "no dispatcher" : dispatcher_name(status.owner_held);
 }
 
+bool is_executed(const Status& status) {
+    return has_started(status.job_state) && !is_over(status.job_state);
+}
+
 std::string job_text(const Status& status) {
     if (status.job_id == Uuid{}) return "none";
     return to_text(status.job_id) + " " + name(status.job_state) + " (" + name(status.job_result) + "), " +
-           fixed(status.progress / 100.0, 1) + " %, " + std::to_string(status.elapsed_s) + " s";
+           fixed(status.progress / 100.0, 1) + " %, " + std::to_string(status.elapsed_s) + " s" +
+           (is_executed(status) ? ", " + program_place(status) : std::string());
 }
 
 std::string store_text(const CellStatusReport& report) {
@@ -44,6 +50,17 @@ std::string store_text(const CellStatusReport& report) {
 std::string memory_text(const CellStatusReport& report) {
     if (!report.store_loss.empty()) return "CELL_STORE_LOST: " + report.store_loss;
     return report.has_journal ? "the one that the journal knows" : "no journal of this cell here";
+}
+
+// Lengths in mm.
+Json executed_json(const Status& status) {
+    if (!is_executed(status)) return {};
+    return {{"block_no", status.block_no},
+            {"program_chunk", chunk_of_block(status.block_no)},
+            {"program_line", line_of_block(status.block_no)},
+            {"tool_in_spindle", status.tool_no},
+            {"tip_mm", {status.tip[0] / 100.0, status.tip[1] / 100.0, status.tip[2] / 100.0}},
+            {"remaining_s", status.remaining_s == Status::unknown_s ? Json() : Json(status.remaining_s)}};
 }
 
 Json store_json(const CellStatusReport& report) {
@@ -94,6 +111,7 @@ Document document(const CellStatusReport& report) {
                         {"job_result", name(s.job_result)},
                         {"progress", s.progress / 10000.0},
                         {"elapsed_s", s.elapsed_s},
+                        {"executed", executed_json(s)},
                         {"alarms", s.alarms},
                         {"alarm_text", printable(s.alarm_text)},
                         {"store", store_json(report)},

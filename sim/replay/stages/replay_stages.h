@@ -14,6 +14,7 @@
 #include "base/context.h"
 #include "sim/program/parsed_program.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/stages/tool_way.h"
 #include "sim/replay/stock/stock_model.h"
 
 namespace qchopper {
@@ -22,24 +23,6 @@ struct StageOptions {
     double cell = 1;          // of the foam
     bool is_worst = true;     // as in ReplayOptions
     std::size_t stages = 24;  // at equal removed volume, beside the first one
-};
-
-enum class WayKind : std::uint8_t {
-    joint_move,
-    tool_change,  // the tip stands
-    link,         // faster than the window of the tool
-    air,          // at the feed of cuts, removes nothing
-    cut
-};
-
-// Where the tip comes to, and how.
-struct WayPoint {
-    Vec3 tip;
-    double seconds = 0;  // since the program began
-    SourcePlace place;
-    std::uint16_t tool = 0;         // CuttingTool::number
-    std::uint32_t orientation = 0;  // index in ReplayScene::orientations; of a joint move that of the line before
-    WayKind kind = WayKind::link;
 };
 
 struct ReplayStage {

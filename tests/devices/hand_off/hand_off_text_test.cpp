@@ -233,5 +233,17 @@ TEST(OperatorWords, CommandsAndDispatchersAreNamed) {
     EXPECT_EQ(dispatcher_name(0xAB), "dispatcher 0x000000AB");
 }
 
+TEST(OperatorWords, WhereTheProgramIsIsToldByChunkAndLine) {
+    Status status;
+    status.block_no = 3'000'412;
+    status.tool_no = 2;
+    status.tip = {1000, -450, 12000};
+    status.remaining_s = 720;
+    EXPECT_EQ(program_place(status), "chunk 3, line 412, tool 2 at X 10.00 Y -4.50 Z 120.00 mm, 12 min left");
+    status.block_no = 57;
+    status.remaining_s = Status::unknown_s;
+    EXPECT_EQ(program_place(status), "block 57, tool 2 at X 10.00 Y -4.50 Z 120.00 mm");
+}
+
 }  // namespace
 }  // namespace qchopper

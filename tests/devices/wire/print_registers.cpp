@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <initializer_list>
 
+#include "devices/wire/program_block.h"
 #include "devices/wire/registers.h"
 
 namespace qchopper {
@@ -64,7 +65,8 @@ std::string print_codes() {
     out += number(signature_detail::unsigned_ticket) +
            " of BAD_SIGNATURE: " + describe(AckResult::bad_signature, signature_detail::unsigned_ticket) + "; ";
     out += number(signature_detail::revoked_key) +
-           " of UNKNOWN_KEY: " + describe(AckResult::unknown_key, signature_detail::revoked_key) + ".\n";
+           " of UNKNOWN_KEY: " + describe(AckResult::unknown_key, signature_detail::revoked_key) +
+           ". Of PROGRAM_UNREADABLE it is the line, in the file that the log of the cell names; 0: of no line.\n";
     out +=
         "\nSTORE takes the TICKET and the SIGNATURE that came last over its own connection; one that wrote neither "
         "takes "
@@ -125,6 +127,16 @@ const char* const what_is_kept =
     "marks "
     "are both put back to a copy that was taken between a CLAIM and its START.\n";
 
+std::string print_blocks() {
+    const std::string chunk = number(lines_per_block_chunk);
+    return "\n## BLOCK_NO\n\nA cell that knows which line of the program it executes publishes chunk * " + chunk +
+           " + line in BLOCK_NO, ALARM_BLOCK and LAST_BLOCK: the chunk counted from 1 in the order of the job's "
+           "manifest, 0 the main program, and the line in its file, counted from 1. " +
+           number(program_block(3, 412)) +
+           " is line 412 of chunk 3. A cell that does not know it counts blocks in its own way, below " + chunk +
+           ". TIP is in the frame in which the lines of the program state their points, that of the ticket's BOX.\n";
+}
+
 }  // namespace
 
 std::string print_registers() {
@@ -141,7 +153,7 @@ std::string print_registers() {
         "ACK_DETAIL.\n\nA later version 1.x adds to this one and is served; a cell that publishes an older VERSION is "
         "refused.\n";
     for (const Block* block : all_blocks()) out += print_block(*block);
-    return out + what_is_kept + print_codes() + print_machine();
+    return out + print_blocks() + what_is_kept + print_codes() + print_machine();
 }
 
 }  // namespace qchopper

@@ -61,6 +61,7 @@ void Bench::pass(std::int64_t ms) {
 }
 
 void Bench::restart(PowerCut::Store store) {
+    lose_power(cell, now);
     const CellMemory kept = saved.empty() ? CellMemory{} : saved.back();
     cell = power_on(cell, memory_after(store, kept), 43, now, hooks);
 }
@@ -81,7 +82,8 @@ void Bench::to_stored(const WireTicket& ticket) {
 void Bench::to_verified(const WireTicket& ticket) {
     to_stored(ticket);
     ASSERT_EQ(send(CellCommand::verify, ticket.job_id), AckResult::pending);
-    file_checked(cell, cell.pending->number, {FileCheck::End::ok, ticket.file_size, ticket.file_sha256}, now, hooks);
+    file_checked(cell, cell.pending->number, {FileCheck::End::ok, ticket.file_size, ticket.file_sha256, program}, now,
+                 hooks);
     ASSERT_EQ(cell.ack.result, AckResult::ok);
 }
 

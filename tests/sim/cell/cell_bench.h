@@ -36,6 +36,7 @@ struct Bench {
     void to_running(const WireTicket& ticket = good_ticket());
     Status status() const { return status_of(cell, now); }
 
+    ReceivedProgram program;  // found in each job file that is verified from now on
     CellTime now{1000000, 1700000000000};
     CellHooks hooks;
     std::vector<CellMemory> saved;
