@@ -10,6 +10,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/standard_input_lines.h"
+#include "app/dispatch/block_picture.h"
 #include "app/dispatch/executed_program.h"
 #include "app/dispatch/signing.h"
 #include "app/dispatch/simulated_limits.h"
@@ -17,16 +18,37 @@
 #include "app/report/notices.h"
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/text.h"
+#include "cam/job/read_job.h"
 #include "devices/wire/modbus_tcp.h"
 #include "sim/cell/script_run.h"
 
 namespace qchopper {
 namespace {
 
+// Before the cell works for hours.
+void check_picture(const CellSimArguments& arguments, const Cell& cell) {
+    if (!arguments.picture || cell.machine) return;
+    throw InputError(InputFault::use, "the cell file describes no machine: what its programs carve is not known",
+                     "leave --picture out");
+}
+
+// Of the block as the last job has carved it.
+void write_picture(const CellSim& sim, const CellSimArguments& arguments, Terminal& terminal) {
+    const std::optional<CarvedJob> carved = sim.carved_job();
+    if (!carved) return terminal.message("no job was started: there is no picture of its block");
+    const std::string name = carved->file.filename().string();
+    write_file(*arguments.picture,
+               block_picture(read_job(carved->file), name, read_cell(*arguments.cell), carved->run_s));
+    terminal.message(arguments.picture->string() + ": the block after " +
+                     duration(static_cast<std::uint32_t>(carved->run_s)) + " of " + name);
+}
+
 CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& address) {
     CellSimOptions options;
     if (arguments.cell) {
         const Cell cell = read_cell(*arguments.cell);
+        check_picture(arguments, cell);
         options.limits = simulated_limits(cell);
         options.read_program = program_reader(cell);
     }
@@ -109,6 +131,7 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
     const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
     terminal.show({"listening " + where}, listening_document(where));
     serve(sim, script, terminal);
+    if (arguments.picture) write_picture(sim, arguments, terminal);
     sim.stop();
     terminal.message("simulated cell stopped");
     return exit_done;

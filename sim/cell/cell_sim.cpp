@@ -154,7 +154,7 @@ struct CellSim::Parts {
 
     void turn_off() {
         report("power is off");
-        lose_power(cell, clock.now());
+        note_block(cell, clock.now());
         is_off = true;
         on_at_ms.reset();
         server->set_power(false);
@@ -369,6 +369,14 @@ void CellSim::stop() {
 Status CellSim::status() const {
     const std::lock_guard lock(parts_->mutex);
     return status_of(parts_->cell, parts_->clock.now());
+}
+
+std::optional<CarvedJob> CellSim::carved_job() const {
+    const std::lock_guard lock(parts_->mutex);
+    if (!parts_->is_off) note_block(parts_->cell, parts_->clock.now());
+    const CarvedSoFar& carved = parts_->cell.surroundings.carved;
+    if (carved.job == Uuid{} || !parts_->store) return std::nullopt;
+    return CarvedJob{parts_->store->job(carved.job), carved.run_s};
 }
 
 bool CellSim::perform(const ScriptLine& line) {

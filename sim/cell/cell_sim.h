@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,12 @@ struct CellSimOptions : ListenAt {
     std::function<void(const std::string& line)> on_message;  // a line for a log; called from the cell's threads
 };
 
+// The job that was started last, whatever became of it.
+struct CarvedJob {
+    std::filesystem::path file;  // in the store
+    double run_s = 0;            // of its program, so far
+};
+
 class CellSim {
  public:
     explicit CellSim(CellSimOptions options);
@@ -52,6 +59,8 @@ class CellSim {
     void stop();                 // a second call has no effect
 
     Status status() const;  // STATUS at this moment
+    // What has carved the block on the table. Nothing where no job was started, and after stop().
+    std::optional<CarvedJob> carved_job() const;
 
     // The rest may be called from any thread while the cell runs. A cell that lost its power by a fault is on again one
     // second of its clock later.

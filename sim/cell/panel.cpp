@@ -125,7 +125,7 @@ void disarm_all(CellState& cell) {
     cell.frozen_heartbeat.reset();
 }
 
-void lose_power(CellState& cell, CellTime now) {
+void note_block(CellState& cell, CellTime now) {
     if (cell.job.is_active()) cell::note_carved(cell, now);
 }
 

@@ -33,9 +33,9 @@ void arm(CellState& cell, const ArmedFault& fault, CellTime now);
 // No fault is armed any more, and the heartbeat goes on.
 void disarm_all(CellState& cell);
 
-// Power goes: the block stays as it was carved, and the controller's retentive memory keeps the line. To be called at
-// that moment.
-void lose_power(CellState& cell, CellTime now);
+// How far the block is carved now: to be called when somebody looks at it, and when power goes, after which it stays so
+// and the controller's retentive memory keeps the line.
+void note_block(CellState& cell, CellTime now);
 // After a power cut: what the store holds then, and the cell that starts with it. Faults and surroundings stay.
 CellMemory memory_after(PowerCut::Store store, const CellMemory& saved);
 CellState power_on(const CellState& before, CellMemory memory, std::uint64_t seed, CellTime now,

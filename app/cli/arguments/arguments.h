@@ -238,6 +238,7 @@ struct CellSimArguments {
     double speed = 1;
     std::optional<std::filesystem::path> trusted;  // list of trusted keys
     std::optional<std::filesystem::path> script;
+    std::optional<std::filesystem::path> picture;  // of the block as it stands when the cell ends
     bool list_faults = false;
 };
 

@@ -182,6 +182,7 @@ void check_arguments(const SegmentArguments& a) {
 
 void check_arguments(const CellSimArguments& a) {
     if (a.drop.empty() && !a.list_faults) refuse("no drop folder is named", "pass --drop FOLDER");
+    if (a.picture && !a.cell) refuse("--picture needs the machine of a cell file", "pass --cell FILE");
 }
 
 void check_arguments(const SubmitArguments& a) {

@@ -508,6 +508,8 @@ struct Parser {
         c->add_option("--keys", cell_sim.trusted,
                       "the list of keys that it trusts, read again for each job (none: it checks no signature)");
         c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
+        c->add_option("--picture", cell_sim.picture,
+                      "when the cell ends, write a PNG of the block as its last job has carved it; needs --cell");
         c->add_flag("--list-faults", cell_sim.list_faults, "list the faults that a script can order, and end");
         add_common(c, common, [this] { common.command = cell_sim; });
     }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "app/dispatch/block_picture.h"
+#include "base/error.h"
 #include "cam/job/write_job.h"
 #include "devices/wire/program_block.h"
 #include "tests/app/jobs/proven_job.h"
@@ -102,6 +104,21 @@ TEST_P(ExecutedPrograms, AreNoneOfAJobWithoutAProgramOrACellWithoutAMachine) {
     Cell cell = proven().cell.cell;
     cell.machine.reset();
     EXPECT_FALSE(program_reader(cell));
+}
+
+TEST_P(ExecutedPrograms, LeaveTheBlockAsItStandsAtThatMoment) {
+    const Bytes job = job_file(proven().input);
+    const Cell& cell = proven().cell.cell;
+    const double whole_s = received(proven().input).run->seconds;
+    const Bytes before = block_picture(job, "A.qjob", cell, 0);
+    const Bytes within = block_picture(job, "A.qjob", cell, whole_s / 2);
+    const Bytes after = block_picture(job, "A.qjob", cell, whole_s);
+    EXPECT_TRUE(before != within && within != after && before != after);
+    EXPECT_TRUE(block_picture(job, "A.qjob", cell, whole_s + 1) == after) << "it has ended";
+    EXPECT_TRUE(block_picture(job, "A.qjob", cell, whole_s / 2) == within);
+    JobInput without = proven().input;
+    without.program.reset();
+    EXPECT_THROW(block_picture(job_file(without), "A.qjob", cell, 0), InputError);
 }
 
 TEST_P(ExecutedPrograms, InAnotherLanguageAreRefused) {

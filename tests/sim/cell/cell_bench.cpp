@@ -61,7 +61,7 @@ void Bench::pass(std::int64_t ms) {
 }
 
 void Bench::restart(PowerCut::Store store) {
-    lose_power(cell, now);
+    note_block(cell, now);
     const CellMemory kept = saved.empty() ? CellMemory{} : saved.back();
     cell = power_on(cell, memory_after(store, kept), 43, now, hooks);
 }
