@@ -1,5 +1,6 @@
 // Hands the jobs of a project to a cell; asks before a real one is set in motion.
 
+#include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/confirm.h"
 #include "app/cli/exit_code.h"
@@ -20,12 +21,13 @@ int show(const DispatchReport& report, const std::string& schema, Terminal& term
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged(nothing_started);
     DispatchRequest request = arguments;
+    request.program_version = version();
     if (arguments.signing.key) {
         request.signing_key = open_own_key(*arguments.signing.key, arguments.signing.passphrase_fd);
     }
     const DispatchAnswer answer = dispatch_project(request, operator_at_terminal(), terminal.context());
-    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}}, "qchopper-dispatch-2",
-                terminal);
+    return show({answer.handed, answer.wanted, answer.is_simulated, answer.refused, {}, answer.restart},
+                "qchopper-dispatch-2", terminal);
 }
 
 }  // namespace qchopper

@@ -21,6 +21,29 @@
 namespace qchopper {
 namespace {
 
+PieceJob described(const ReadJob& read, const std::filesystem::path& file, Bytes bytes) {
+    PieceJob job;
+    job.piece = read.piece;
+    job.file = std::move(bytes);
+    job.ticket = job_ticket(read, file.filename().string());
+    if (read.program) {
+        job.part = read.program->part.number;
+        job.parts = read.program->part.count;
+        job.chunks = read.program->chunks.size();
+        job.restart = read.program->restart;
+    }
+    job.no_program_because = read.no_program_because;
+    job.verdict = read_verdict(file);
+    job.signature = read_signature(file);
+    job.unreachable_share = read.setup.access.unreachable_share();
+    job.max_unreachable = read.max_unreachable;
+    job.is_unreachable = is_unreachable(read.setup, read.max_unreachable);
+    if (const std::optional<Workholding>& workholding = read.setup.workholding; workholding && !workholding->passes()) {
+        job.holding_problem = workholding_problem(*workholding) + "; " + workholding_remedy(*workholding);
+    }
+    return job;
+}
+
 PieceJob job_of(const JobOrder& order) {
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::symlink_status(order.file, error))) {
@@ -30,24 +53,7 @@ PieceJob job_of(const JobOrder& order) {
     Bytes bytes = read_job(order.file);
     const ReadJob read = parse_job(bytes, order.file.string());
     check_ordered(read, order);
-    PieceJob job;
-    job.piece = order.piece;
-    job.file = std::move(bytes);
-    job.ticket = job_ticket(read, order.file.filename().string());
-    if (read.program) {
-        job.part = read.program->part.number;
-        job.parts = read.program->part.count;
-    }
-    job.no_program_because = read.no_program_because;
-    job.verdict = read_verdict(order.file);
-    job.signature = read_signature(order.file);
-    job.unreachable_share = read.setup.access.unreachable_share();
-    job.max_unreachable = read.max_unreachable;
-    job.is_unreachable = is_unreachable(read.setup, read.max_unreachable);
-    if (const std::optional<Workholding>& workholding = read.setup.workholding; workholding && !workholding->passes()) {
-        job.holding_problem = workholding_problem(*workholding) + "; " + workholding_remedy(*workholding);
-    }
-    return job;
+    return described(read, order.file, std::move(bytes));
 }
 
 // None if prepare wrote no job for the piece, because it does not fit or the saw alone makes it.
@@ -85,7 +91,14 @@ bool was_taken_up(const std::vector<DispatchedJob>& handed, const PieceJob& job,
     });
 }
 
-// False if one of them is no reason to go on: it is UNKNOWN, or did not run to its end.
+// Whether the job has ended in the cell and one of these goes on with it.
+bool is_restarted(const std::vector<PieceJob>& jobs, const WireTicket& ticket, const JobOutcome& outcome) {
+    return is_over(outcome.job_state) && !outcome.store_is_lost && std::ranges::any_of(jobs, [&](const PieceJob& job) {
+               return job.restart && job.restart->of == ticket.file_sha256;
+           });
+}
+
+// False if one of them is no reason to go on: it is UNKNOWN, or did not run to its end and no job goes on with it.
 bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
                        const Journal& journal, const ProjectContext& context, std::vector<DispatchedJob>& handed) {
     const JournalHistory before = history_of(journal.content().rows);
@@ -104,6 +117,10 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
         const JobOutcome& outcome = one.outcome;
         if (outcome.start_outcome == StartOutcome::not_started && !outcome.cancelled && !outcome.store_is_lost)
             continue;
+        if (!outcome.is_complete() && is_restarted(jobs, ticket.value, outcome)) {
+            context.message("it has ended: " + outcome.why + "; its restart follows");
+            continue;
+        }
         handed.push_back(std::move(one));
         if (!handed.back().outcome.is_complete()) return false;
         context.saved("The jobs before it ended complete; it was not started.");
@@ -138,19 +155,71 @@ std::optional<JobOutcome> milled_before(const JournalHistory& history, const Pie
     return outcome;
 }
 
-void check_part(const JournalHistory& history, const PieceJob& job) {
+// What a ticket says of the order, the piece and the part.
+WireTicket place_of(const PieceJob& job) {
     WireTicket ticket;
     ticket.project_id = job.ticket.about.project_id;
     ticket.piece_no = job.ticket.about.piece_no;
     ticket.part = job.ticket.about.part;
     ticket.parts = job.ticket.about.parts;
-    const std::string why = why_part_must_wait(history, ticket);
+    return ticket;
+}
+
+// "B.r5.qjob (job 0123...)"
+std::string name_of(const JournalJob& job) {
+    return printable(decode<WireTicket>(job.ticket).value.file_name) + " (job " + to_text(job.job_id) + ")";
+}
+
+// The job of the piece or part was stopped, and another one carved it to its end since.
+std::optional<JobOutcome> carved_since(const JournalHistory& history, const PieceJob& job,
+                                       const DispatchOptions& options) {
+    const JournalJob* const own = history.last_start_of(job.ticket.file_sha256);
+    if (own == nullptr || own->is_complete() || options.again) return std::nullopt;
+    const JournalJob* const last = history.last_start_at(place_of(job));
+    if (last == nullptr || !last->is_complete()) return std::nullopt;
+    JobOutcome outcome;
+    outcome.start_outcome = StartOutcome::not_started;
+    outcome.milled_before = true;
+    outcome.milled_complete = true;
+    outcome.why = "its job was stopped, and by the journal " + name_of(*last) + " has carved it to its end";
+    outcome.to_do = carve_again();
+    return outcome;
+}
+
+// By the journal the cell was stopped in the job that the restart goes on with, and nothing but restarts came after it.
+void check_restart(const JournalHistory& history, const PieceJob& job, const DispatchOptions& options) {
+    if (!job.restart || options.again) return;
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(
+            InputFault::use,
+            "piece " + job.piece + ": the restart " + job.ticket.file_name + " is not sent: by the journal " + why,
+            Sentence::with_key(
+                "look_then_restart", {},
+                "Look at the block and at the chunk in which the machine stood. If both are of this job, "
+                "ask for it to be carved again."));
+    };
+    const JournalJob* const last = history.last_start_at(place_of(job));
+    if (last == nullptr) return refuse("the cell has started no job of this piece");
+    if (last->is_complete()) return refuse(name_of(*last) + " has carved it to its end");
+    const JournalJob* const stopped = history.last_start_at(place_of(job), false);
+    if (stopped != nullptr && stopped->file_sha256 == job.restart->of) return;
+    refuse("the cell was stopped in another job than the one whose chunk this is: " +
+           (stopped == nullptr ? name_of(*last) : name_of(*stopped)));
+}
+
+void check_part(const JournalHistory& history, const PieceJob& job) {
+    const std::string why = why_part_must_wait(history, place_of(job));
     if (!why.empty()) {
         throw InputError(InputFault::use, "piece " + job.piece + ": " + why, "dispatch the parts in their order");
     }
 }
 
 }  // namespace
+
+PieceJob piece_job(const std::filesystem::path& file, Bytes bytes) {
+    const ReadJob read = parse_job(bytes, file.string());
+    return described(read, file, std::move(bytes));
+}
 
 ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece,
                     const Context& context, bool may_be_unfinished) {
@@ -226,7 +295,10 @@ std::vector<DispatchedJob> dispatch_jobs(const std::vector<PieceJob>& jobs, Regi
         if (was_taken_up(taken_up, job, history)) continue;
         kept.past = past_of(history, nullptr, options.owner_held);
         check_part(history, job);
-        if (std::optional<JobOutcome> before = milled_before(history, job, options)) {
+        check_restart(history, job, options);
+        std::optional<JobOutcome> before = carved_since(history, job, options);
+        if (!before) before = milled_before(history, job, options);
+        if (before) {
             context.message("piece " + job.piece + ": NOT STARTED: " + before->why);
             handed.push_back({job.piece, *std::move(before)});
             if (!handed.back().outcome.milled_complete) break;

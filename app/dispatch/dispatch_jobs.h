@@ -26,6 +26,8 @@ struct PieceJob {
     JobTicket ticket;
     std::uint16_t part = 1;  // of `parts` that mill the piece in one clamping
     std::uint16_t parts = 1;
+    std::size_t chunks = 0;             // of its program
+    std::optional<JobRestart> restart;  // of a job that goes on with one that was stopped
     std::string no_program_because;     // empty: it holds a robot program
     std::optional<JobVerdict> verdict;  // the one beside it
     double unreachable_share = 0;       // of the surface
@@ -50,6 +52,10 @@ struct ProjectJobs {
 ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece,
                     const Context& context, bool may_be_unfinished = false);
 
+// A job file of these bytes as it is handed over, with the verdict and the signature that lie beside it. Throws
+// InputError (mesh) if it is broken.
+PieceJob piece_job(const std::filesystem::path& file, Bytes bytes);
+
 // Per job whose state is "unreachable" one sentence without a full stop: the piece, its share and the limit.
 std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs);
 
@@ -64,8 +70,11 @@ struct DispatchedJob {
 
 // First takes up the jobs that an earlier dispatcher left open in the journal, and follows those that have started to
 // their end. Then dispatches the jobs of which none of these was started. Stops after the first job that did not run to
-// its end: the next one may need the block that it left. A file that the cell has milled to its end before is passed
-// over. Every event goes into `journal` before what follows from it. Throws what dispatch_job and adopt_job throw.
+// its end: the next one may need the block that it left. Only its restart goes on behind it. A file that the cell has
+// milled to its end before is passed over, and one that was stopped and whose piece or part a later job carved to its
+// end. Every event goes into `journal` before what follows from it. Throws what dispatch_job and adopt_job throw, and
+// InputError (use): a part whose part before has not ended complete; unless options.again, a restart of another job
+// than the cell was stopped in, or of a piece or part that was carved to its end since.
 std::vector<DispatchedJob> dispatch_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus,
                                          const DispatchOptions& options, Journal& journal,
                                          const ProjectContext& context);

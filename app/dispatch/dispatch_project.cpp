@@ -79,6 +79,20 @@ std::vector<Sentence> why_not_that_job(ProjectJobs& ordered, const DispatchReque
             to_hex(*request.job) + ": it was made again since, or is one of another project"};
 }
 
+// Puts the restart in the place of the jobs, if one is asked for. Empty: it is proven, or none is asked for.
+std::vector<Sentence> why_not_restarted(ProjectJobs& ordered, const DispatchRequest& request,
+                                        const ProjectContext& context, DispatchAnswer& answer) {
+    if (!request.from_chunk) return {};
+    if (!request.piece) {
+        throw InputError(InputFault::use, "a chunk is of one piece, and none is named",
+                         Sentence::with_key("name_piece", {}, "name the piece"));
+    }
+    answer.restart = put_restart_in_place(ordered, *request.from_chunk, request.program_version, context);
+    if (answer.restart->job.empty()) return answer.restart->refused;
+    context.saved(std::string(nothing_started) + " The restart " + answer.restart->job + " lies beside its jobs.");
+    return answer.restart->refused;
+}
+
 // Check 5.
 std::vector<Sentence> why_not_this_cell(const DispatchRequest& request, bool is_simulated, const std::string& to) {
     if (request.expects_simulated.value_or(is_simulated) == is_simulated) return {};
@@ -166,7 +180,8 @@ DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& 
     ProjectJobs ordered = jobs_of(request.project, request.piece, context);
     const Cell& cell = ordered.cell;
     DispatchAnswer answer;
-    answer.refused = why_not_that_job(ordered, request);
+    answer.refused = why_not_restarted(ordered, request, context, answer);
+    if (answer.refused.empty()) answer.refused = why_not_that_job(ordered, request);
     answer.wanted = ordered.jobs.size();
     if (answer.refused.empty()) answer.refused = why_not_any_cell(ordered, request, person, context);
     if (!answer.refused.empty()) return answer;

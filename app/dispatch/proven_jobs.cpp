@@ -80,7 +80,8 @@ std::vector<std::string> wrongly_signed_jobs(const ProjectJobs& jobs, const Trus
         const std::string fault =
             fault_of(job.signature, job.ticket.file_sha256, jobs.cell.id, jobs.cell.require_signature, trusted, now_ms);
         if (fault.empty()) return std::nullopt;
-        return fault + "; look at the job, then sign it: qchopper keys sign " + shell_word(jobs.folder);
+        const std::filesystem::path what = job.restart ? jobs.folder / "jobs" / job.ticket.file_name : jobs.folder;
+        return fault + "; look at the job, then sign it: qchopper keys sign " + shell_word(what);
     });
 }
 

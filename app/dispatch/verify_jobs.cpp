@@ -9,11 +9,13 @@
 #include <span>
 
 #include "app/dispatch/dispatch_jobs.h"
+#include "app/dispatch/restart_job.h"
 #include "app/engine/open_project.h"
 #include "app/jobs/hole_faults.h"
 #include "app/jobs/job_proof.h"
 #include "app/jobs/job_scene.h"
 #include "app/jobs/kept_deviation.h"
+#include "app/jobs/ordered_job.h"
 #include "app/jobs/project_joints.h"
 #include "base/error.h"
 #include "base/files/file.h"
@@ -120,18 +122,6 @@ void shorten(JobVerdict& verdict) {
     verdict.findings.resize(max_listed_findings);
 }
 
-JobVerdict without_findings(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                            const std::string& program_version) {
-    JobVerdict verdict;
-    verdict.piece = job.piece;
-    verdict.job = fs::path(job_file).filename().string();
-    verdict.job_sha256 = job.file_sha256;
-    verdict.cell = cell.cell.name;
-    verdict.cell_sha256 = cell.sha256;
-    verdict.program_version = program_version;
-    return verdict;
-}
-
 // Rotation alone is not asked: the piece of the project is laid as the job says, by a pose of determinant +1, and has
 // to be the job's mesh triangle for triangle.
 std::optional<ProofFinding> fault_against_piece(const ReadJob& job, const std::string& job_file, const Piece& piece) {
@@ -222,7 +212,57 @@ VerifiedJob written(const fs::path& file, JobVerdict verdict, const Cell& cell, 
     return {file, std::move(verdict), std::move(fault)};
 }
 
+// What of a restart does not follow from the job that it goes on with.
+std::vector<ProofFinding> faults_against_first(const ReadJob& restart, const ReadJob& first, const fs::path& first_file,
+                                               const CellFile& cell, const Context& context) {
+    if (!restart.program || !restart.program->restart) {
+        return {finding("other_job", "it is named as a restart, and goes on with no other job")};
+    }
+    return faults_of_restart(restart, first, first_file.filename().string(), cell.cell, context);
+}
+
+// The job that a restart goes on with, where it lies beside it whole and unchanged.
+std::optional<ReadJob> first_beside(const ReadJob& restart, const fs::path& file) {
+    const fs::path first = file.parent_path() / job_file_name(restart.piece, restart.program->part.number);
+    try {
+        ReadJob job = parse_job(read_job(first), first.string());
+        if (job.file_sha256 == restart.program->restart->of) return job;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+void add_restart_beside(const ReadJob& job, const fs::path& file, const CellFile& cell, JobVerdict& verdict,
+                        const Context& context) {
+    if (!job.program || !job.program->restart) return;
+    const std::string name = job_file_name(job.piece, job.program->part.number);
+    const std::optional<ReadJob> first = first_beside(job, file);
+    if (!first) {
+        verdict.notes.push_back(
+            "stock.bin was taken as it is, because the job that it goes on with does not lie "
+            "beside it as " +
+            name);
+        return;
+    }
+    const std::vector<ProofFinding> faults = faults_of_restart(job, *first, name, cell.cell, context);
+    verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
+    shorten(verdict);
+}
+
 }  // namespace
+
+JobVerdict unjudged(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                    const std::string& program_version) {
+    JobVerdict verdict;
+    verdict.piece = job.piece;
+    verdict.job = fs::path(job_file).filename().string();
+    verdict.job_sha256 = job.file_sha256;
+    verdict.cell = cell.cell.name;
+    verdict.cell_sha256 = cell.sha256;
+    verdict.program_version = program_version;
+    return verdict;
+}
 
 CellFile read_cell_file(const fs::path& path) {
     return {read_cell(path), sha256(read_file(path, settings_limit))};
@@ -231,7 +271,7 @@ CellFile read_cell_file(const fs::path& path) {
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
                      const std::string& program_version, const Context& context, const ProofKeeping& keeping) {
     if (keeping.stock_left != nullptr) keeping.stock_left->clear();
-    JobVerdict verdict = without_findings(job, job_file, cell, program_version);
+    JobVerdict verdict = unjudged(job, job_file, cell, program_version);
     verdict.findings = faults_against_cell(job, cell.cell);
     if (!job.program) {
         verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
@@ -255,6 +295,7 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
     const CellFile described = read_cell_file(cell);
     std::optional<CarvedView> view;
     JobVerdict verdict = judge_job(read, job.string(), described, program_version, context, {.view = &view});
+    add_restart_beside(read, job, described, verdict, context);
     verdict.notes.emplace_back(
         "its setup was not compared with that of its project, because a single job file does not have the project");
     VerifiedJob verified = written(job, std::move(verdict), described.cell, trusted);
@@ -295,6 +336,14 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
         verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
         shorten(verdict);
         verified.push_back(written(file, std::move(verdict), cell.cell, trusted));
+        for (const fs::path& restart : restart_files(folder, job.piece, job.part)) {
+            const ReadJob own = parse_job(read_job(restart), restart.string());
+            JobVerdict on_restart = judge_job(own, restart.string(), cell, program_version, context);
+            const auto against_first = faults_against_first(own, read, file, cell, context);
+            on_restart.findings.insert(on_restart.findings.begin(), against_first.begin(), against_first.end());
+            shorten(on_restart);
+            verified.push_back(written(restart, std::move(on_restart), cell.cell, trusted));
+        }
     }
     return verified;
 }

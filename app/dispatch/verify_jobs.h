@@ -61,14 +61,20 @@ struct ProofKeeping {
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
                      const std::string& program_version, const Context& context, const ProofKeeping& keeping = {});
 
+// The verdict on a job before it is judged: of which piece, bytes, cell file and version.
+JobVerdict unjudged(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                    const std::string& program_version);
+
 // One job file; "B.carved.glb" is written beside "B.qjob", a file there replaced. Without a cell file, that of the
-// project in whose folder "jobs" it lies. Throws what read_job and parse_job throw, what read_cell throws, and
-// InputError (use) without a cell file.
+// project in whose folder "jobs" it lies. Of a restart the stock is carved again with the job that it goes on with,
+// where that lies beside it; else a note says that it was not. Throws what read_job and parse_job throw, what read_cell
+// throws, and InputError (use) without a cell file.
 VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std::filesystem::path>& cell_file,
                        const std::string& program_version, const TrustedKeys& trusted, const Context& context);
 
 // All jobs of a project, or those of one piece, in the order of its pieces. Parts of a program have to follow each
-// other, each carrying the stock that the replay of the one before left, and its SHA-256. Throws what jobs_of
+// other, each carrying the stock that the replay of the one before left, and its SHA-256. Behind a job stand its
+// restarts, each with the stock that the chunks before it leave. Throws what jobs_of
 // (dispatch_jobs.h) throws.
 VerifyAnswer verify_project(const std::filesystem::path& folder, const std::optional<std::string>& piece,
                             const std::string& program_version, const TrustedKeys& trusted,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/hex.h"
 #include "base/text.h"
 #include "cam/cell/job_tools.h"
 #include "cam/job/job_program.h"
@@ -167,6 +168,12 @@ std::vector<std::string> notes_of(const JobProgram& program, const std::vector<s
         notes.push_back("of the cell's tools it is carved with " + describe_tools(allowed) + " alone");
     }
     if (const std::string moves = describe(program.moves_left_out); !moves.empty()) notes.push_back(moves);
+    if (program.restart) {
+        notes.push_back("it goes on behind " + counted(program.restart->chunks_before, "chunk") +
+                        " of the job file with the SHA-256 " + to_hex(program.restart->of) +
+                        ": what they leave counts in all volumes and in the foam left, and how deep they cut stands "
+                        "in the verdict on that job");
+    }
     return notes;
 }
 

@@ -124,8 +124,9 @@ ReplayScene scene_of(const ProofInput& input) {
 }
 
 std::optional<StockRecord> stock_before(const ProofInput& input) {
-    if (input.program.part.number == 1) return std::nullopt;
-    if (input.stock == nullptr) throw InputError(InputFault::mesh, "what the part before leaves is not known");
+    if (!input.program.has_stock()) return std::nullopt;
+    if (input.stock == nullptr)
+        throw InputError(InputFault::mesh, "the stock in which the program begins is not known");
     return read_stock(*input.stock, "stock.bin");
 }
 

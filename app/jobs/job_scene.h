@@ -24,7 +24,7 @@ struct ProofInput {
     const TriangleMesh& mesh;                         // of piece.stl, welded: setup coordinates
     const JobProgram& program;                        // see is_stated
     const std::map<std::string, std::string>& texts;  // of all its files
-    const Bytes* stock = nullptr;                     // stock.bin of a part but the first
+    const Bytes* stock = nullptr;                     // stock.bin, where the program has_stock()
     std::vector<JobHole> holes = {};                  // of all caps
     std::vector<HalfSpace> half_spaces = {};          // of the piece, in its coordinates; empty: not known
     double replay_cell = 0.25;                        // mm; that of the stock
@@ -58,7 +58,8 @@ ParsedProgram program_read_back(const ProofInput& input);
 // Without the stock before. The input must outlive it. Precondition: the cell has a machine.
 ReplayScene scene_of(const ProofInput& input);
 
-// What the part before left (sim/replay/stock/stock_record.h); nothing for the first. Throws InputError (mesh).
+// What the part before, or the chunks before a restart, left (sim/replay/stock/stock_record.h); nothing where the
+// program begins in the block. Throws InputError (mesh).
 std::optional<StockRecord> stock_before(const ProofInput& input);
 
 }  // namespace qchopper

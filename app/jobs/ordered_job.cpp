@@ -3,12 +3,14 @@
 #include "app/jobs/ordered_job.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <iterator>
 
 #include "base/error.h"
 #include "base/hex.h"
 #include "base/printable.h"
+#include "cam/job/read_job.h"
 
 namespace qchopper {
 namespace {
@@ -56,6 +58,24 @@ std::vector<WrittenJob> written_jobs_of(const Project& project, const std::strin
     std::copy_if(project.jobs.begin(), project.jobs.end(), std::back_inserter(jobs),
                  [&](const WrittenJob& job) { return job.piece == piece; });
     return jobs;
+}
+
+std::vector<std::filesystem::path> restart_files(const std::filesystem::path& folder, const std::string& piece,
+                                                 std::uint16_t part) {
+    std::map<std::uint32_t, std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "jobs", error)) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t at = name.rfind(".r");
+        if (at == std::string::npos) continue;
+        std::uint32_t chunk = 0;
+        std::from_chars(name.data() + at + 2, name.data() + name.size(), chunk);
+        if (chunk > 0 && name == job_file_name(piece, part, chunk)) files[chunk] = entry.path();
+    }
+    std::vector<std::filesystem::path> sorted;
+    sorted.reserve(files.size());
+    for (const auto& [chunk, file] : files) sorted.push_back(file);
+    return sorted;
 }
 
 void check_ordered(const ReadJob& job, const JobOrder& order) {

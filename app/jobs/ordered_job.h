@@ -26,6 +26,10 @@ WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& 
 // The jobs that the project has on record for a piece, in the order of its parts.
 std::vector<WrittenJob> written_jobs_of(const Project& project, const std::string& piece);
 
+// The job files of restarts of a part of a piece in the folder of a project, by their chunks.
+std::vector<std::filesystem::path> restart_files(const std::filesystem::path& folder, const std::string& piece,
+                                                 std::uint16_t part);
+
 // WrittenJob::place by piece, of those that have one.
 std::map<std::string, BlockPlacement> recorded_places(const Project& project);
 

@@ -123,14 +123,18 @@ JobInput job_input(const JobOrders& orders, std::size_t index, const PlacedSetup
     return input;
 }
 
-// Removes the jobs of a piece and their verdicts, of all its parts.
+// Removes the jobs of a piece and their verdicts, of all its parts, with their restarts.
 void remove_jobs(const fs::path& folder, const std::string& piece) {
     std::error_code error;
     std::uint16_t part = 1;
     for (; part == 1 || fs::exists(folder / "jobs" / job_file_name(piece, part), error); ++part) {
         const fs::path file = folder / "jobs" / job_file_name(piece, part);
-        fs::remove(verdict_file(file), error);
-        fs::remove(file, error);
+        std::vector<fs::path> files = restart_files(folder, piece, part);
+        files.push_back(file);
+        for (const fs::path& job : files) {
+            fs::remove(verdict_file(job), error);
+            fs::remove(job, error);
+        }
     }
 }
 

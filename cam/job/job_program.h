@@ -45,6 +45,14 @@ struct JobPart {
     bool operator==(const JobPart&) const = default;
 };
 
+// A job that goes on where another one was stopped: its chunks are the last ones of that job, and it carries the stock
+// that the chunks before them leave.
+struct JobRestart {
+    Sha256 of;                        // of the job file that it goes on with
+    std::uint32_t chunks_before = 0;  // of that job's chunks, that are not carved again
+    bool operator==(const JobRestart&) const = default;
+};
+
 // Cuts that the program leaves out, because no arm configuration takes them.
 struct MovesLeftOut {
     double length_mm = 0;
@@ -69,12 +77,15 @@ struct JobProgram {
     std::vector<std::string> files;  // all of the program, in the order in which they are loaded
     std::vector<JobChunk> chunks;    // in the order in which they run; at least one
     JobPart part;
+    std::optional<JobRestart> restart;       // nothing: it begins in the block, or where the part before it ended
     std::vector<DrillOrientation> drilling;  // of all parts: directions behind those of the setup
     std::vector<std::size_t> holes;          // numbers of those that this program drills, ascending
     double scallop_mm = 0;                   // scallop height that finishing was made for
     double time_s = 0;                       // estimated, accelerations and tool changes included
     std::vector<ToolLeftOut> left_out;       // of all parts
     MovesLeftOut moves_left_out;             // of all parts
+    // Whether its job carries the stock in which it begins (stock.bin).
+    bool has_stock() const { return part.number > 1 || restart.has_value(); }
     bool operator==(const JobProgram&) const = default;
 };
 
@@ -121,7 +132,7 @@ struct ProgramInput {
     std::vector<std::uint16_t> tools;          // numbers, in the order in which they are used
     ProofResult proof;
     Bytes deviation_picture;  // PNG; empty: none
-    Bytes stock;              // stock.bin, of a part but the first: what the part before left
+    Bytes stock;              // stock.bin, where the program has_stock()
 };
 
 }  // namespace qchopper

@@ -297,6 +297,10 @@ std::string to_manifest(const JobInput& input, std::vector<JobEntry> entries) {
     return to_document(described(input, std::move(entries)));
 }
 
+std::string to_manifest(const ReadJob& job) {
+    return to_document(job);
+}
+
 std::string manifest_schema() {
     return schema_of_document<ReadJob>("manifest of a job of qchopper");
 }

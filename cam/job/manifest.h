@@ -18,6 +18,8 @@ std::vector<Alternative> alternatives_of(const JobInput& input);
 
 // JSON text. `entries` are the other files, sorted by name. Precondition: all numbers are finite.
 std::string to_manifest(const JobInput& input, std::vector<JobEntry> entries);
+// The same of a job that was read, with its own entries.
+std::string to_manifest(const ReadJob& job);
 
 // Fills all of ReadJob but ticket, files, file_size and file_sha256. Throws InputError (mesh) naming `source` and the
 // key if a value is missing, of another kind or out of range, or if the text is not in the form that to_manifest

@@ -67,6 +67,12 @@ void fields(V& v, T& part) {
     v.check(part.before.has_value() == (part.number > 1), "before_sha256", "is there for the first part alone");
 }
 
+template <class V, Of<JobRestart> T>
+void fields(V& v, T& restart) {
+    v("of_sha256", restart.of);
+    v("chunks_before", restart.chunks_before);
+}
+
 template <class V, Of<DrillOrientation> T>
 void fields(V& v, T& orientation) {
     v("tool_axis", orientation.tool_axis, is_direction);
@@ -101,6 +107,7 @@ void fields(V& v, T& program) {
     v.check(are_different(program.files), "files", "names a file twice");
     v.check(is_listed(program.files, program.entry), "entry", "is none of the files");
     v("part", program.part);
+    v.maybe("restart", program.restart);
     v("drilling", program.drilling);
     v("holes", program.holes);
     v.check(is_ascending(program.holes), "holes", "are not in order");
@@ -148,7 +155,7 @@ std::string fault_of_holes(const std::optional<JobProgram>& program, const std::
             return "the program drills hole " + std::to_string(number) + ", which is not the robot's";
         }
     }
-    const bool is_whole = !program || program->part.count == 1;
+    const bool is_whole = !program || (program->part.count == 1 && !program->restart);
     return is_whole && drilled != by_robot ? "holes of the robot are drilled by no program" : "";
 }
 

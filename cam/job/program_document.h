@@ -38,8 +38,8 @@ std::string fault_of_program_files(const std::optional<JobProgram>& program, con
 // Why the tools of a program are not those that the operator allows; none: all are. Empty: they are.
 std::string fault_of_tools(const std::optional<JobProgram>& program, const std::vector<std::uint16_t>& allowed);
 
-// Why the holes that a program drills are not those of the caps that are the robot's: of a part of several each must be
-// one of them, otherwise they are the same. Empty: they are.
+// Why the holes that a program drills are not those of the caps that are the robot's: of a part of several, or of a
+// restart, each must be one of them, otherwise they are the same. Empty: they are.
 std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps);
 
 }  // namespace qchopper

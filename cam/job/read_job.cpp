@@ -45,9 +45,10 @@ void check_entries(const ReadJob& job, const std::string& source) {
     for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
     }
-    const bool continues = job.program && job.program->part.number > 1;
+    const bool continues = job.program && job.program->has_stock();
     if (continues != job.files.contains(stock_name)) {
-        refuse(source, std::string(stock_name) + (continues ? " is missing" : " belongs to a later part"));
+        refuse(source,
+               std::string(stock_name) + (continues ? " is missing" : " belongs to a later part or to a restart"));
     }
     for (const std::string& fault :
          {fault_of_program_files(job.program, job.files), fault_of_templates(job.caps, job.files)}) {
@@ -78,8 +79,11 @@ void check_poses(const ReadJob& job, const std::string& source) {
 
 }  // namespace
 
-std::string job_file_name(const std::string& piece, std::uint16_t part) {
-    std::string name = piece + (part > 1 ? ".p" + std::to_string(part) : std::string()) + ".qjob";
+std::string job_file_name(const std::string& piece, std::uint16_t part, std::uint32_t from_chunk) {
+    std::string name = piece;
+    if (part > 1) name += ".p" + std::to_string(part);
+    if (from_chunk > 0) name += ".r" + std::to_string(from_chunk);
+    name += ".qjob";
     if (!is_portable_name(name) || piece.empty()) {
         throw InputError(InputFault::use, "piece \"" + piece + "\" cannot name a job file",
                          "use up to 27 of A-Z a-z 0-9 . _ -");

@@ -13,9 +13,10 @@
 
 namespace qchopper {
 
-// "<piece>.qjob", of part 2 and on "<piece>.p2.qjob". Throws InputError (use) if the name does not fit the wire
+// "<piece>.qjob", of part 2 and on "<piece>.p2.qjob"; of a restart "<piece>.r5.qjob" or "<piece>.p2.r5.qjob", where
+// chunks count from 1 over all parts (0: no restart). Throws InputError (use) if the name does not fit the wire
 // (is_portable_name).
-std::string job_file_name(const std::string& piece, std::uint16_t part = 1);
+std::string job_file_name(const std::string& piece, std::uint16_t part = 1, std::uint32_t from_chunk = 0);
 
 // The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
 Bytes read_job(const std::filesystem::path& path);

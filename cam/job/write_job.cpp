@@ -28,6 +28,8 @@ namespace {
 constexpr std::uint64_t largest_manifest = 16u << 20;  // bytes; it has kilobytes
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
+constexpr const char* stock_name = "stock.bin";
+constexpr const char* deviation_name = "deviation.png";
 
 Bytes to_bytes(const std::string& text) {
     return {text.begin(), text.end()};
@@ -55,6 +57,26 @@ void set_tools(TicketTemplate& about, const ProgramInput& program, const Cell& c
         about.spindle_max_rpm = std::max(about.spindle_max_rpm, tool.spindle_max_rpm);
         about.feed_max_mm_per_min = std::max(about.feed_max_mm_per_min, tool.feed_max_mm_per_min);
     }
+}
+
+void add_program(const ProgramInput& input, std::map<std::string, Bytes>& files) {
+    for (const auto& [name, text] : input.texts) files[name] = to_bytes(text);
+    if (input.program.has_stock()) files[stock_name] = input.stock;
+    if (!input.deviation_picture.empty()) files[deviation_name] = input.deviation_picture;
+}
+
+std::vector<JobEntry> entries_of(const std::map<std::string, Bytes>& files, const std::string& piece) {
+    std::vector<JobEntry> entries;
+    std::uint64_t total = 0;
+    for (const auto& [name, bytes] : files) {
+        entries.push_back({name, bytes.size(), sha256(bytes)});
+        total += bytes.size();
+    }
+    if (total > job_limit.bytes - largest_manifest) {
+        throw InputError(InputFault::use, "piece " + piece + ": its job file would exceed 4 GB",
+                         "cut the piece further");
+    }
+    return entries;
 }
 
 }  // namespace
@@ -103,11 +125,7 @@ Bytes job_file(const JobInput& input) {
         files["setup-2.png"] = pictures.back;
         if (input.machine_reachability.is_arm_checked) files["envelope.png"] = envelope_picture(input, lying);
     }
-    if (input.program) {
-        for (const auto& [name, text] : input.program->texts) files[name] = to_bytes(text);
-        if (input.program->program.part.number > 1) files["stock.bin"] = input.program->stock;
-        if (!input.program->deviation_picture.empty()) files["deviation.png"] = input.program->deviation_picture;
-    }
+    if (input.program) add_program(*input.program, files);
     for (const DrawnCap& cap : input.caps) {
         const CapTemplate drawing = cap_template(cap, input.piece.name);
         files[template_name(cap.cap.cut, "svg")] = to_bytes(template_svg(drawing));
@@ -118,17 +136,23 @@ Bytes job_file(const JobInput& input) {
     files["details.html"] = to_bytes(sheet_details(input));
     files["envelope.json"] = to_bytes(envelope_document(input));
     files[ticket_name] = to_bytes(to_json(ticket));
-    std::vector<JobEntry> entries;
-    std::uint64_t total = 0;
-    for (const auto& [name, bytes] : files) {
-        entries.push_back({name, bytes.size(), sha256(bytes)});
-        total += bytes.size();
-    }
-    if (total > job_limit.bytes - largest_manifest) {
-        throw InputError(InputFault::use, "piece " + input.piece.name + ": its job file would exceed 4 GB",
-                         "cut the piece further");
-    }
-    files[manifest_name] = to_bytes(to_manifest(input, entries));
+    files[manifest_name] = to_bytes(to_manifest(input, entries_of(files, input.piece.name)));
+    return zip(std::move(files));
+}
+
+Bytes restart_job_file(const ReadJob& first, const ProgramInput& program, const Cell& cell) {
+    std::map<std::string, Bytes> files = first.files;
+    for (const std::string& name : first.program->files) files.erase(name);
+    for (const char* name : {manifest_name, stock_name, deviation_name}) files.erase(name);
+    add_program(program, files);
+    TicketTemplate ticket = first.ticket;
+    ticket.estimated_time_s = whole_seconds(program.program.time_s);
+    set_tools(ticket, program, cell);
+    files[ticket_name] = to_bytes(to_json(ticket));
+    ReadJob job = first;
+    job.program = program.program;
+    job.entries = entries_of(files, job.piece);
+    files[manifest_name] = to_bytes(to_manifest(job));
     return zip(std::move(files));
 }
 

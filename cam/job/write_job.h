@@ -14,6 +14,10 @@ namespace qchopper {
 // the ticket, or the file would exceed job_limit.
 Bytes job_file(const JobInput& input);
 
+// The job that goes on with another one by this program, of which program.restart is not empty: the files of `first`,
+// but program, stock, picture of the deviation and ticket, which are new. Throws as job_file().
+Bytes restart_job_file(const ReadJob& first, const ProgramInput& program, const Cell& cell);
+
 // The template that goes into the job file. Throws InputError (use) if the number of the base's cut does not fit it.
 TicketTemplate ticket_template(const JobInput& input);
 

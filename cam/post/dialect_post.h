@@ -33,6 +33,7 @@ struct MainProgram {
     std::size_t part = 0;
     std::size_t parts = 1;
     std::vector<CalledChunk> chunks;
+    std::string question = {};  // that the operator is asked before the first move; empty: none
 };
 
 class DialectPost {
@@ -56,5 +57,8 @@ class DialectPost {
 std::unique_ptr<DialectPost> krl_post(const Program& program, const Cell& cell, const std::string& piece);
 std::unique_ptr<DialectPost> rapid_post(const Program& program, const Cell& cell, const std::string& piece);
 std::unique_ptr<DialectPost> ngc_post(const Program& program, const Cell& cell, const std::string& piece);
+
+// That of the cell's language.
+std::unique_ptr<DialectPost> post_in_dialect(const Program& program, const Cell& cell, const std::string& piece);
 
 }  // namespace qchopper

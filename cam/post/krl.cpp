@@ -45,7 +45,7 @@ class KrlPost : public DialectPost {
         std::optional<std::size_t> tool;
         for (const CalledChunk& chunk : main.chunks) {
             const ProgramOperation& operation = program_.operations[chunk.range.operation];
-            if (!tool) begin(main.part, operation, text);
+            if (!tool) begin(main.question, operation, text);
             if (tool && *tool != operation.tool) stop(text);
             if (tool && *tool != operation.tool) chunks_.add_joint_move(program_.home, angle, text);
             if (!tool || *tool != operation.tool) change_tool(operation.tool, text);
@@ -67,10 +67,10 @@ class KrlPost : public DialectPost {
         return text;
     }
 
-    void begin(std::size_t part, const ProgramOperation& operation, KrlText& text) const {
+    void begin(const std::string& question, const ProgramOperation& operation, KrlText& text) const {
         chunks_.add_tool(operation.tool, text);
-        if (part > 0) {
-            text.comment("ASK " + part_question(part));
+        if (!question.empty()) {
+            text.comment("ASK " + question);
             text.line("HALT");
         }
         chunks_.add_joint_move(program_.home, 0, text);

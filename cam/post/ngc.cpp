@@ -226,8 +226,8 @@ std::vector<ProgramText> NgcPost::main(const MainProgram& main) const {
     std::optional<std::size_t> tool;
     for (const CalledChunk& chunk : main.chunks) {
         const std::size_t own = program_.operations[chunk.range.operation].tool;
-        if (!tool && main.part > 0) {
-            text.comment("MSG, ASK " + part_question(main.part));
+        if (!tool && !main.question.empty()) {
+            text.comment("MSG, ASK " + main.question);
             text.line("M0");
         }
         if (tool && *tool != own) {

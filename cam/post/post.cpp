@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "cam/post/dialect_post.h"
+#include "cam/post/post_signals.h"
 
 namespace qchopper {
 namespace {
@@ -137,12 +138,16 @@ struct DialectRow {
 constexpr std::array<DialectRow, 3> dialects{
     {{Dialect::krl, krl_post}, {Dialect::rapid, rapid_post}, {Dialect::ngc, ngc_post}}};
 
-std::unique_ptr<DialectPost> post_of(const Program& program, const Cell& cell, const std::string& piece) {
+}  // namespace
+
+std::string piece_name(const ProgramName& name) {
+    return name_of(name.piece);
+}
+
+std::unique_ptr<DialectPost> post_in_dialect(const Program& program, const Cell& cell, const std::string& piece) {
     const auto row = std::ranges::find(dialects, cell.machine->program.dialect, &DialectRow::dialect);
     return row->make(program, cell, piece);
 }
-
-}  // namespace
 
 std::string renumbered_name(const std::string& file, std::uint32_t from, std::uint32_t to) {
     const std::string piece = name_of(from);
@@ -173,8 +178,8 @@ std::string renumbered_text(const std::string& text, std::uint32_t from, std::ui
 
 std::vector<ProgramPart> post_program(const Program& program, const Cell& cell, const ProgramName& name) {
     assert(cell.machine && !program.operations.empty());
-    Names names{name_of(name.piece)};
-    const std::unique_ptr<DialectPost> post = post_of(program, cell, names.piece);
+    Names names{piece_name(name)};
+    const std::unique_ptr<DialectPost> post = post_in_dialect(program, cell, names.piece);
     const std::vector<RunRange> ranges = chunk_ranges(program, *post, cell.machine->program);
     std::vector<WrittenChunk> all;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -188,7 +193,7 @@ std::vector<ProgramPart> post_program(const Program& program, const Cell& cell, 
     starts.push_back(all.size());
     std::vector<ProgramPart> parts;
     for (std::size_t k = 0; k < names.parts; ++k) {
-        MainProgram main{names.main(k), k, names.parts, {}};
+        MainProgram main{names.main(k), k, names.parts, {}, k > 0 ? part_question(k) : std::string()};
         for (std::size_t i = starts[k]; i < starts[k + 1]; ++i) main.chunks.push_back(all[i].chunk);
         ProgramPart part{names.main(k) + post->ending(), post->main(main), {}};
         for (std::size_t i = starts[k]; i < starts[k + 1]; ++i) {

@@ -16,6 +16,7 @@
 #include "cam/cell/cell.h"
 #include "cam/post/program_lines.h"
 #include "cam/program/program.h"
+#include "cam/setup/setup.h"
 
 namespace qchopper {
 
@@ -44,6 +45,9 @@ struct ProgramName {
     std::uint32_t piece = 1;  // number of the piece: names are qc_<piece>, qc_<piece>_p<part>, qc_<piece>_<chunk>
 };
 
+// "qc_7", with which the names of all files of a piece begin.
+std::string piece_name(const ProgramName& name);
+
 // The name of a file, and its text, that post_program writes of the same program for a piece of another number of as
 // many digits; with more digits a program may be divided elsewhere. Preconditions: both are of one that it wrote for
 // the piece `from` (tests/cam/post/krl_test.cpp). O(bytes).
@@ -54,5 +58,22 @@ std::string renumbered_text(const std::string& text, std::uint32_t from, std::ui
 // cell file lacks a signal, the language cannot say what the program does, or one chunk does not fit into the memory;
 // InputError (use) if a value is not finite or out of range. O(moves).
 std::vector<ProgramPart> post_program(const Program& program, const Cell& cell, const ProgramName& name);
+
+// A chunk that was posted.
+struct KeptChunk {
+    std::string name;               // of its file, without ending
+    std::uint16_t tool_number = 0;  // CuttingTool::number
+    std::size_t orientation = 0;    // index in SurfaceAccess::orientations, with those of drilling behind them
+    std::size_t bytes = 0;          // of its file
+};
+
+// The files of a main program that calls the last chunks of a program which post_program wrote for this setup and this
+// cell, the entry first: it asks whether those before them have ended and the block was not moved, and goes on as that
+// program does. `main` is its name, without ending; `part` the part from 1 to `parts` to which the chunks belong.
+// Preconditions: at least one chunk, of which the first begins at home or may be started from there; the cell has the
+// tools. Throws as post_program(). O(chunks) (tests/cam/post/restart_test.cpp).
+std::vector<ProgramText> post_restart(const std::vector<KeptChunk>& chunks, const Setup& setup, const Cell& cell,
+                                      const ProgramName& name, const std::string& main, std::size_t part,
+                                      std::size_t parts);
 
 }  // namespace qchopper

@@ -31,4 +31,8 @@ std::string part_question(std::size_t part) {
     return "part " + std::to_string(part) + " has ended, and this is the same block, not moved";
 }
 
+std::string restart_question(const std::string& chunk) {
+    return "the chunks before " + chunk + " have ended, and this is the same block, not moved";
+}
+
 }  // namespace qchopper

@@ -20,4 +20,8 @@ std::string tool_question(const CuttingTool& tool);
 // "part 1 has ended, and this is the same block, not moved": before the part behind it, counted from 0.
 std::string part_question(std::size_t part);
 
+// "the chunks before qc_7_005 have ended, and this is the same block, not moved": before a program that begins with a
+// chunk but the first.
+std::string restart_question(const std::string& chunk);
+
 }  // namespace qchopper

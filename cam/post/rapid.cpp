@@ -90,6 +90,7 @@ class RapidPost : public DialectPost {
         std::optional<std::size_t> tool;
         for (const CalledChunk& chunk : main.chunks) {
             const ProgramOperation& operation = operation_of(chunk);
+            if (!tool && !main.question.empty()) rapid::ask(main.question, "k", text);
             if (!tool) chunks_.add_joint_move(operation.tool, program_.home, 0, text);
             if (tool && *tool != operation.tool) stop(text);
             if (tool && *tool != operation.tool) chunks_.add_joint_move(*tool, program_.home, angle, text);

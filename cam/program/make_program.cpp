@@ -464,4 +464,18 @@ Program make_program(const Toolpath& toolpath, const Setup& setup, const Machine
     return program;
 }
 
+Program outlined_program(const std::vector<OutlinedOperation>& operations, const Setup& setup, const Cell& cell) {
+    assert(cell.machine);
+    Program program = empty_program(setup, cell);
+    for (const OutlinedOperation& own : operations) {
+        ProgramOperation operation;
+        operation.tool = own.tool;
+        operation.orientation = own.orientation;
+        operation.tool_axis = setup.tool_axis(own.orientation);
+        operation.table_angle = table_angle(setup, cell, own.orientation);
+        program.operations.push_back(std::move(operation));
+    }
+    return program;
+}
+
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/context.h"
 #include "base/error.h"
@@ -48,5 +49,16 @@ class ProgramRefused : public InputError {
 // O(length / 10 mm + moves).
 Program make_program(const Toolpath& toolpath, const Setup& setup, const MachineReachability& reachability,
                      const Cell& cell, const Context& context = {});
+
+// An operation as a main program sees it.
+struct OutlinedOperation {
+    std::size_t tool = 0;         // index in CellMachine::tools
+    std::size_t orientation = 0;  // index in SurfaceAccess::orientations, with those of drilling behind them
+};
+
+// What of a program does not depend on its moves: home, frames, tools, and of each operation tool, orientation and
+// angle of the table, without runs. Preconditions: the cell has a machine with these tools, the setup has these
+// orientations. O(operations + tools).
+Program outlined_program(const std::vector<OutlinedOperation>& operations, const Setup& setup, const Cell& cell);
 
 }  // namespace qchopper

@@ -115,6 +115,17 @@ const JournalJob* JournalHistory::last_start_of(const Sha256& file) const {
     return found == jobs.rend() ? nullptr : &*found;
 }
 
+const JournalJob* JournalHistory::last_start_at(const WireTicket& place, bool counts_restarts) const {
+    const auto found = std::find_if(jobs.rbegin(), jobs.rend(), [&](const JournalJob& job) {
+        if (!job.may_have_started()) return false;
+        const Decoded<WireTicket> ticket = decode<WireTicket>(job.ticket);
+        const WireTicket& own = ticket.value;
+        return ticket.is_ok() && own.project_id == place.project_id && own.piece_no == place.piece_no &&
+               own.part == place.part && own.parts == place.parts && (counts_restarts || !own.is_restart());
+    });
+    return found == jobs.rend() ? nullptr : &*found;
+}
+
 HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held) {
     HandOffPast past{history, {}};
     if (job != nullptr) static_cast<JobPast&>(past) = *job;

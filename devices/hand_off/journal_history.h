@@ -49,6 +49,8 @@ struct JournalHistory : CellPast {
 
     // The last job with this file that has started or may have; nullptr if none.
     const JournalJob* last_start_of(const Sha256& file) const;
+    // The last one of the same PROJECT_ID, PIECE_NO, PART and PARTS, with restarts or without.
+    const JournalJob* last_start_at(const WireTicket& place, bool counts_restarts = true) const;
 };
 
 // What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job). `owner_held` as STATUS

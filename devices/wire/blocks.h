@@ -148,6 +148,8 @@ struct WireTicket {
     std::uint16_t cell_id = 0;
     std::uint16_t made_for = 0;  // b0: made for a simulated cell
     std::uint32_t key_id = 0;
+    // Whether FILE_NAME is that of a restart: it ends with .rN.qjob, N a number.
+    bool is_restart() const;
     bool operator==(const WireTicket&) const = default;
 };
 

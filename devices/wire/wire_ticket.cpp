@@ -67,4 +67,11 @@ WireTicket wire_ticket(const JobTicket& ticket, const WireTicket& order) {
     return t;
 }
 
+bool WireTicket::is_restart() const {
+    const std::size_t at = file_name.rfind(".r");
+    if (at == std::string::npos) return false;
+    const std::size_t digits = file_name.find_first_not_of("0123456789", at + 2);
+    return digits != std::string::npos && digits > at + 2 && file_name.substr(digits) == ".qjob";
+}
+
 }  // namespace qchopper

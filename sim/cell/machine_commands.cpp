@@ -303,8 +303,9 @@ std::string consent_question(const CellState& cell) {
     const auto of = [](unsigned k, unsigned n) { return std::to_string(k) + " of " + std::to_string(n); };
     std::string question = "Job " + ticket.file_name + " (piece " + of(ticket.piece_no, ticket.piece_count);
     if (ticket.parts > 0) question += ", part " + of(ticket.part, ticket.parts);
-    question += ticket.part > 1 ? "): is it the same block, not moved since part " + std::to_string(ticket.part - 1)
-                                : std::string("): is the block loaded");
+    question += ticket.is_restart() ? "): have the chunks before it ended, and is it the same block, not moved"
+                : ticket.part > 1   ? "): is it the same block, not moved since part " + std::to_string(ticket.part - 1)
+                                    : std::string("): is the block loaded");
     question += ", and is the area clear?";
     const auto carved = std::count_if(cell.memory.jobs.begin(), cell.memory.jobs.end(), [&](const auto& job) {
         return job.second.starts > 0 && job.second.file_sha256 == ticket.file_sha256;

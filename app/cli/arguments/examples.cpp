@@ -90,6 +90,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper cell-sim --list-faults)"},
     {"dispatch", R"(  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
   qchopper dispatch vertebra.qch --piece B
+  qchopper dispatch vertebra.qch --piece B --from-chunk 12
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse
   qchopper dispatch vertebra.qch --key anna)"},
     {"journal", R"(  qchopper journal show

@@ -518,6 +518,11 @@ struct Parser {
         CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
         add_project(c, dispatch.project);
         c->add_option("--piece", dispatch.piece, "only this piece");
+        c->add_option("--from-chunk", dispatch.from_chunk,
+                      "restart the job of the piece that was stopped, from the chunk of this number, in the same "
+                      "block: that of the program file in which the machine stood, qc_7_012 is 12")
+            ->check(number_between(2, 65535, "the number of a chunk but the first"))
+            ->needs("--piece");
         c->add_option_function<std::string>(
              "--job", [this](const std::string& digits) { dispatch.job = sha256_from_hex(digits); },
              "only the job file of this SHA-256, as the project records it")

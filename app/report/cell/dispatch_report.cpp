@@ -40,6 +40,14 @@ Json job_json(const DispatchedJob& handed) {
     return json;
 }
 
+Json restart_json(const MadeRestart& restart) {
+    return {{"job_file", restart.job},
+            {"of_sha256", to_hex(restart.of)},
+            {"ordered_chunk", restart.ordered_chunk},
+            {"from_chunk", restart.from_chunk},
+            {"chunk_file", restart.chunk_file}};
+}
+
 // Of those that are wanted so many ended complete before, and were passed over now.
 std::size_t milled_before(const DispatchReport& report) {
     return static_cast<std::size_t>(std::count_if(
@@ -113,6 +121,7 @@ Document document(const DispatchReport& report, const std::string& schema) {
                  {"jobs_wanted", report.wanted},
                  {"all_complete", report.is_complete()},
                  {"jobs", jobs}};
+    if (report.restart && !report.restart->job.empty()) json["restart"] = restart_json(*report.restart);
     if (!report.refused.empty()) {
         json["refused"] = list_of(report.refused, [](const Sentence& why) { return Json(why.text); });
     }

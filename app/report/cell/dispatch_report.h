@@ -2,10 +2,12 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/dispatch/dispatch_jobs.h"
+#include "app/dispatch/restart_dispatch.h"
 #include "app/report/document.h"
 
 namespace qchopper {
@@ -16,6 +18,7 @@ struct DispatchReport {
     bool is_simulated = false;      // the cell
     std::vector<Sentence> refused;  // why none was sent (unreachable_jobs), or empty
     Sentence next;                  // what comes next, if all ended complete; may be empty
+    std::optional<MadeRestart> restart = {};
     // All jobs that are wanted ended complete, now or before.
     bool is_complete() const;
     bool is_cancelled() const;

@@ -9,11 +9,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "app/dispatch/restart_job.h"
 #include "app/jobs/piece_program.h"
 #include "base/text.h"
+#include "cam/job/read_job.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/plane_frame.h"
 #include "segment/search/segmentation.h"
@@ -393,6 +396,25 @@ TEST(DrilledJobs, EveryPartDrillsItsHolesAndAllOfThemAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kuka, DrilledJobsOf, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
+
+TEST(DrilledJobs, ARestartDrillsTheHolesOfItsChunks) {
+    const ProvenJob& whole = drilled_job("kr60-ha");
+    const std::vector<JobChunk>& chunks = whole.job.program->chunks;
+    const std::string source = "A.qjob";
+    std::set<std::size_t> counts;
+    for (std::size_t chunk = chunks.size() - 1; chunk > 0 && chunk + 4 > chunks.size(); --chunk) {
+        const RestartJob made = make_restart({whole.job, source, whole.cell.cell, chunk, 0});
+        EXPECT_TRUE(made.proof.is_proven()) << made.proof.findings.front().text;
+        const std::vector<std::size_t> holes = parse_job(made.file, made.name).program->holes;
+        counts.insert(holes.size());
+        for (const std::size_t hole : whole.job.program->holes) {
+            const auto own = std::ranges::find(chunks, run_of(whole.job, hole).file, &JobChunk::file);
+            EXPECT_EQ(std::ranges::count(holes, hole), own - chunks.begin() >= std::ptrdiff_t(made.chunk) ? 1 : 0);
+        }
+        EXPECT_EQ(made.proof.figure("holes_due"), static_cast<double>(holes.size()));
+    }
+    EXPECT_GT(counts.size(), 1U);
+}
 
 }  // namespace
 }  // namespace qchopper

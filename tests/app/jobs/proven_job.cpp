@@ -50,9 +50,11 @@ void fill_in(JobProgram& program, const ProgramFiles& files, const Cell& cell) {
 
 }  // namespace
 
-ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps, FineTools fine) {
+ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps, FineTools fine,
+                          const std::function<void(Cell&)>& change) {
     ProvenJob made;
     made.cell = read_cell_file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (cell_name + ".toml"));
+    if (change) change(made.cell.cell);
     JobInput input;
     input.piece = piece;
     input.program_version = version;

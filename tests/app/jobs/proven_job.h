@@ -23,8 +23,9 @@ struct ProvenJob {
 // The caps of a piece that lies in a setup.
 using CapsOf = std::function<std::vector<DrawnCap>(const Setup&)>;
 
+// `change` changes the ready cell before.
 ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps = {},
-                          FineTools fine = FineTools::worthwhile);
+                          FineTools fine = FineTools::worthwhile, const std::function<void(Cell&)>& change = {});
 
 // Of the piece of tests/app/ball_cap.h. `cell_name` as in cells/NAME.toml.
 const ProvenJob& proven_job(const std::string& cell_name);

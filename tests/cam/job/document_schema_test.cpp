@@ -73,7 +73,8 @@ void for_each_value(SchemaJson& value, const std::function<void(SchemaJson&)>& v
 TEST(DocumentSchemas, AWrongKindAMissingKeyAndAKeyTooManyAreRefusedByTheSchema) {
     const SchemaJson schema = SchemaJson::parse(manifest_schema());
     const Names optional = keys_of_schema(schema, true);
-    EXPECT_EQ(optional, (Names{"allowed_mm2", "flush_caps", "foam_at_faces_mm", "ignored_mm2", "milled_caps_mm2"}));
+    EXPECT_EQ(optional,
+              (Names{"allowed_mm2", "flush_caps", "foam_at_faces_mm", "ignored_mm2", "milled_caps_mm2", "restart"}));
     std::size_t changes = 0;
     for (const JobInput& input : some_jobs()) {
         SchemaJson document = manifest_of(input);

@@ -162,6 +162,38 @@ TEST(JobProgram, PartsNameTheJobBefore) {
     EXPECT_NE(refusal(job_file(input)).find("before_sha256"), std::string::npos);
 }
 
+TEST(JobProgram, ARestartNamesItsJobAndCarriesItsStock) {
+    const JobInput whole = job_with_program();
+    const ReadJob first = parse_job(job_file(whole), "AB.qjob");
+    ProgramInput program = *whole.program;
+    program.program.restart = {first.file_sha256, 1};
+    program.program.chunks.erase(program.program.chunks.begin());
+    program.program.entry = "qc_2_r2.src";
+    program.program.files = {"qc_2_r2.src", "qc_2_002.src"};
+    program.program.time_s = 100;
+    program.texts = {{"qc_2_r2.src", "x"}, {"qc_2_002.src", "y"}};
+    program.tools = {7};
+    program.stock = {1, 2, 3};
+    const Bytes bytes = restart_job_file(first, program, whole.cell);
+    const ReadJob job = parse_job(bytes, "AB.r2.qjob");
+    EXPECT_EQ(*job.program, program.program);
+    EXPECT_EQ(job.files.at("stock.bin"), program.stock);
+    EXPECT_FALSE(job.files.contains("qc_2_001.src"));
+    EXPECT_EQ(job.files.at("piece.stl"), first.files.at("piece.stl"));
+    EXPECT_EQ(job.setup, first.setup);
+    EXPECT_EQ(job.ticket.tool_no, 7);
+    EXPECT_EQ(job.ticket.estimated_time_s, 100U);
+    EXPECT_EQ(job_file_name("AB", 1, 2), "AB.r2.qjob");
+    EXPECT_EQ(job_file_name("AB", 3, 12), "AB.p3.r12.qjob");
+    std::map<std::string, Bytes> files = unzip(bytes, "AB.r2.qjob");
+    files.at("stock.bin")[1] ^= 1;
+    EXPECT_NE(refusal(zip(files)).find("stock.bin does not match its SHA-256"), std::string::npos);
+    program.program.restart.reset();
+    EXPECT_NE(refusal(restart_job_file(first, program, whole.cell)).find("taken"), std::string::npos)
+        << "no stock is carried where nothing is restarted";
+    EXPECT_FALSE(parse_job(job_file(whole), "AB.qjob").files.contains("stock.bin"));
+}
+
 TEST(JobProgram, SheetAndDetailsShowTimeToolsFiguresAndPicture) {
     JobInput input = job_with_program();
     const ReadJob job = parse_job(job_file(input), "AB.qjob");

@@ -234,5 +234,43 @@ TEST(JournalHistory, APartWaitsForTheCompleteEndOfThePartBefore) {
     EXPECT_NE(why_part_must_wait(rows.history(), ticket), "") << "of another piece";
 }
 
+TEST(JournalHistory, TheLastStartOfAPieceIsFoundWithRestartsAndWithout) {
+    WireTicket ticket;
+    ticket.project_id = {3};
+    ticket.piece_no = 2;
+    ticket.file_name = "B.qjob";
+    Rows rows;
+    rows.add(Is::created).ticket = encode(ticket);
+    EXPECT_EQ(rows.history().last_start_at(ticket), nullptr) << "it was not started";
+    rows.add(Is::started);
+    WireTicket restart = ticket;
+    restart.file_name = "B.r12.qjob";
+    rows.add(Is::created, b).ticket = encode(restart);
+    rows.add(Is::started, b);
+    const JournalHistory history = rows.history();
+    EXPECT_EQ(history.last_start_at(ticket), &history.jobs.at(1));
+    EXPECT_EQ(history.last_start_at(ticket, false), &history.jobs.at(0));
+    for (std::uint16_t WireTicket::*field : {&WireTicket::piece_no, &WireTicket::part, &WireTicket::parts}) {
+        WireTicket other = ticket;
+        ++(other.*field);
+        EXPECT_EQ(history.last_start_at(other), nullptr);
+    }
+    WireTicket other = ticket;
+    other.project_id = {4};
+    EXPECT_EQ(history.last_start_at(other), nullptr) << "of another order";
+}
+
+TEST(JournalHistory, ARestartIsKnownByItsName) {
+    WireTicket ticket;
+    for (const char* name : {"B.r2.qjob", "B.p3.r120.qjob"}) {
+        ticket.file_name = name;
+        EXPECT_TRUE(ticket.is_restart()) << name;
+    }
+    for (const char* name : {"B.qjob", "B.p3.qjob", "B.r.qjob", "B.r2", "B.r2x.qjob", "B.r2.qjobs", "r2.qjob", ""}) {
+        ticket.file_name = name;
+        EXPECT_FALSE(ticket.is_restart()) << name;
+    }
+}
+
 }  // namespace
 }  // namespace qchopper
