@@ -85,5 +85,20 @@ TEST(ProvenJobs, AVerdictThatOnlySaysThatThereIsNoProgramIsNone) {
     expect(jobs, "", "piece B: it holds no robot program: prepare was asked for none");
 }
 
+// The project does not record a restart: its own file is to be signed.
+TEST(ProvenJobs, ARestartIsSignedByItsFile) {
+    ProjectJobs jobs = jobs_with({good_job("B")});
+    jobs.cell.require_signature = true;
+    const auto remedy = [&] {
+        const std::vector<std::string> why = wrongly_signed_jobs(jobs, {}, 0);
+        EXPECT_EQ(why.size(), 1U);
+        return why.empty() ? "" : why.front().substr(why.front().find("qchopper keys sign"));
+    };
+    EXPECT_EQ(remedy(), "qchopper keys sign x.qch");
+    jobs.jobs[0].restart = JobRestart{};
+    jobs.jobs[0].ticket.file_name = "B.r5.qjob";
+    EXPECT_EQ(remedy(), "qchopper keys sign x.qch/jobs/B.r5.qjob");
+}
+
 }  // namespace
 }  // namespace qchopper
