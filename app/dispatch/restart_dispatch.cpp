@@ -10,6 +10,7 @@
 #include "app/dispatch/proven_jobs.h"
 #include "app/dispatch/restart_job.h"
 #include "app/dispatch/verify_jobs.h"
+#include "app/store/project_folder.h"
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text.h"
@@ -66,6 +67,7 @@ void tell(const MadeRestart& made, const std::string& ordered_file, const Projec
 MadeRestart put_restart_in_place(ProjectJobs& ordered, std::uint32_t chunk, const std::string& program_version,
                                  const ProjectContext& context) {
     const StageTimer stage(context, "restart made");
+    const ProjectLock lock(ordered.folder);
     MadeRestart made;
     made.ordered_chunk = chunk;
     const Place place = place_of(ordered, chunk);

@@ -30,7 +30,8 @@ struct MadeRestart {
 
 // Makes it from the job of the piece that holds the chunk. Where it is not refused `ordered` holds it alone.
 // Precondition: `ordered` holds all jobs of one piece, with their verdicts. Throws InputError: (use) the piece has no
-// such chunk, and what make_restart() (app/dispatch/restart_job.h) throws; what write_file throws. Throws Cancelled.
+// such chunk, and what make_restart() (app/dispatch/restart_job.h) throws; (busy) another program writes the project;
+// what write_file throws. Throws Cancelled.
 MadeRestart put_restart_in_place(ProjectJobs& ordered, std::uint32_t chunk, const std::string& program_version,
                                  const ProjectContext& context);
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_code.h"
+#include "app/store/project_folder.h"
 #include "base/files/file.h"
 #include "base/files/zip.h"
 #include "base/sha256.h"
@@ -197,6 +198,12 @@ TEST_F(Restart, AChunkOfAnotherJobIsRefused) {
         EXPECT_TRUE(has(ended.err, "To do: ")) << ended.err;
     };
     refused("9", "p.qch", "the restart A.r9.qjob is not sent: by the journal the cell has started no job");
+    {
+        const ProjectLock other(folder.path / "p.qch");
+        const Ended busy = restart("9");
+        EXPECT_EQ(busy.code, exit_busy) << busy.err;
+        EXPECT_TRUE(has(busy.err, "this dispatch started no job")) << busy.err;
+    }
     hold_and_abort();
     copy("400", "other.qch");
     refused("4", "other.qch", "the cell was stopped in another job than the one whose chunk this is: A.qjob");
