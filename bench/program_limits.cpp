@@ -184,7 +184,7 @@ double made_again_s(const ReadJob& job, const Cell& cell) {
     Timings timings;
     Context context;
     context.timings = &timings;
-    const PiecePrograms programs = make_programs(piece, *placed, job.piece_no, cell, {}, context);
+    const PiecePrograms programs = make_programs(piece, *placed, {job.piece_no}, cell, {}, context);
     if (programs.parts.empty()) throw InputError(InputFault::mesh, job.piece + ": " + programs.none_because);
     return cpu_of(timings.so_far(), "toolpaths made") + cpu_of(timings.so_far(), "programs made");
 }

@@ -101,6 +101,13 @@ std::vector<KeptChunk> kept_chunks(const ReadJob& first, std::size_t from, const
     return kept;
 }
 
+// Names of older jobs are without the order.
+ProgramName name_of(const ReadJob& first) {
+    ProgramName name{first.piece_no, order_in_names(first.project_id)};
+    if (!first.program->entry.starts_with(piece_name(name))) name.order.clear();
+    return name;
+}
+
 // Without stock, proof and time. `number` is that of the chunk over all parts, from 1.
 ProgramInput program_from(const ReadJob& first, const FirstJob& read, std::size_t chunk, std::uint32_t number,
                           const Cell& cell) {
@@ -115,7 +122,7 @@ ProgramInput program_from(const ReadJob& first, const FirstJob& read, std::size_
     input.program.holes = read.holes_from(chunk);
     input.program.files.clear();
     const Setup setup = with_drill_orientations(first.setup, old.drilling);
-    for (ProgramText& file : post_restart(kept, setup, cell, {first.piece_no}, main, old.part.number, old.part.count)) {
+    for (ProgramText& file : post_restart(kept, setup, cell, name_of(first), main, old.part.number, old.part.count)) {
         if (input.program.files.empty()) input.program.entry = file.name;
         input.program.files.push_back(file.name);
         input.texts[file.name] = std::move(file.text);

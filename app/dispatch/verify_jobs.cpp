@@ -97,9 +97,10 @@ std::vector<OrientationPath> paths_of(const ProofInput& input) {
 }
 
 void add_proof(const ReadJob& job, const std::string& job_file, const CellFile& cell, JobVerdict& verdict,
-               const Context& context, const ProofKeeping& keeping) {
+               const Context& context, const ProofKeeping& keeping, const EnteredValues& entered) {
     const JobContents contents(job, job_file);
-    const ProofInput input = contents.input(cell.cell);
+    ProofInput input = contents.input(cell.cell);
+    if (!entered.is_empty()) input.entered = &entered;
     JobProof proof = prove(input, context);
     if (!keeping.cache.empty()) keep_deviation(keeping.cache, job.file_sha256, cell.sha256, proof);
     if (keeping.stock_left != nullptr) *keeping.stock_left = std::move(proof.stock_left);
@@ -204,12 +205,18 @@ std::vector<Piece> pieces_of(const std::vector<PieceJob>& jobs, const std::vecto
     return with_job;
 }
 
-VerifiedJob written(const fs::path& file, JobVerdict verdict, const Cell& cell, const TrustedKeys& trusted) {
+// With what speaks against its signature.
+VerifiedJob unwritten(const fs::path& file, JobVerdict verdict, const Cell& cell, const TrustedKeys& trusted) {
     verdict.is_positive = verdict.findings.empty();
-    write_verdict(file, verdict);
     std::string fault =
         fault_of(read_signature(file), verdict.job_sha256, cell.id, cell.require_signature, trusted, unix_ms());
     return {file, std::move(verdict), std::move(fault)};
+}
+
+VerifiedJob written(const fs::path& file, JobVerdict verdict, const Cell& cell, const TrustedKeys& trusted) {
+    verdict.is_positive = verdict.findings.empty();
+    write_verdict(file, verdict);
+    return unwritten(file, std::move(verdict), cell, trusted);
 }
 
 // What of a restart does not follow from the job that it goes on with.
@@ -269,14 +276,15 @@ CellFile read_cell_file(const fs::path& path) {
 }
 
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                     const std::string& program_version, const Context& context, const ProofKeeping& keeping) {
+                     const std::string& program_version, const Context& context, const ProofKeeping& keeping,
+                     const EnteredValues& entered) {
     if (keeping.stock_left != nullptr) keeping.stock_left->clear();
     JobVerdict verdict = unjudged(job, job_file, cell, program_version);
     verdict.findings = faults_against_cell(job, cell.cell);
     if (!job.program) {
         verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
     } else if (verdict.findings.empty()) {
-        add_proof(job, job_file, cell, verdict, context, keeping);
+        add_proof(job, job_file, cell, verdict, context, keeping, entered);
     }
     shorten(verdict);
     verdict.is_positive = verdict.findings.empty();
@@ -284,7 +292,8 @@ JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const Cell
 }
 
 VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_file,
-                       const std::string& program_version, const TrustedKeys& trusted, const Context& context) {
+                       const std::string& program_version, const TrustedKeys& trusted, const Context& context,
+                       const EnteredValues& entered) {
     const ReadJob read = parse_job(read_job(job), job.string());
     fs::path cell = cell_file.value_or(fs::absolute(job).parent_path().parent_path() / "cell.toml");
     std::error_code error;
@@ -293,11 +302,20 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
                          Sentence::with_key("give_cell_file", {}, "give the cell file"));
     }
     const CellFile described = read_cell_file(cell);
+    std::optional<EnteredDifference> difference;
+    if (!entered.is_empty()) difference = difference_from_plan(entered, read, job.string(), described.cell);
     std::optional<CarvedView> view;
-    JobVerdict verdict = judge_job(read, job.string(), described, program_version, context, {.view = &view});
+    ProofKeeping keeping;
+    if (!difference) keeping.view = &view;
+    JobVerdict verdict = judge_job(read, job.string(), described, program_version, context, keeping, entered);
     add_restart_beside(read, job, described, verdict, context);
     verdict.notes.emplace_back(
         "its setup was not compared with that of its project, because a single job file does not have the project");
+    if (difference) {
+        VerifiedJob verified = unwritten(job, std::move(verdict), described.cell, trusted);
+        verified.entered = std::move(difference);
+        return verified;
+    }
     VerifiedJob verified = written(job, std::move(verdict), described.cell, trusted);
     if (view) {
         write_file(view_file(job), view->glb);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/jobs/entered/entered_values.h"
 #include "app/jobs/job_verdict.h"
 #include "app/pictures/carved_view.h"
 #include "app/store/project_context.h"
@@ -33,6 +34,8 @@ struct VerifiedJob {
     // before anybody signs the job.
     std::string signature_fault = {};
     std::optional<WrittenView> view = {};  // of one job file whose program could be replayed
+    // The verdict is on the program with these values in place of the planned ones, and was not written.
+    std::optional<EnteredDifference> entered = {};
 };
 
 using VerifyAnswer = std::vector<VerifiedJob>;
@@ -57,9 +60,11 @@ struct ProofKeeping {
 };
 
 // The verdict on a job that parse_job took. Faults are findings. Throws Cancelled. A part but the first is replayed
-// from the stock that its job carries.
+// from the stock that its job carries. `entered` is replayed in place of the planned values; precondition:
+// difference_from_plan() took it.
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                     const std::string& program_version, const Context& context, const ProofKeeping& keeping = {});
+                     const std::string& program_version, const Context& context, const ProofKeeping& keeping = {},
+                     const EnteredValues& entered = {});
 
 // The verdict on a job before it is judged: of which piece, bytes, cell file and version.
 JobVerdict unjudged(const ReadJob& job, const std::string& job_file, const CellFile& cell,
@@ -69,8 +74,12 @@ JobVerdict unjudged(const ReadJob& job, const std::string& job_file, const CellF
 // project in whose folder "jobs" it lies. Of a restart the stock is carved again with the job that it goes on with,
 // where that lies beside it; else a note says that it was not. Throws what read_job and parse_job throw, what read_cell
 // throws, and InputError (use) without a cell file.
+//
+// With values that are entered at the controller nothing is written: the verdict is on the program with them, and the
+// one beside the job stays. Throws what difference_from_plan() throws too.
 VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std::filesystem::path>& cell_file,
-                       const std::string& program_version, const TrustedKeys& trusted, const Context& context);
+                       const std::string& program_version, const TrustedKeys& trusted, const Context& context,
+                       const EnteredValues& entered = {});
 
 // All jobs of a project, or those of one piece, in the order of its pieces. Parts of a program have to follow each
 // other, each carrying the stock that the replay of the one before left, and its SHA-256. Behind a job stand its

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/jobs/entered/entered_replay.h"
 #include "base/error.h"
 #include "base/hex.h"
 #include "base/text.h"
@@ -198,7 +199,7 @@ JobProof prove(const ProofInput& input, const Context& context) {
                 ", expected: " + to_word(input.cell.machine->program.dialect) + " of the cell file");
         return proof;
     }
-    const std::optional<ParsedProgram> program = read(input, proof);
+    std::optional<ParsedProgram> program = read(input, proof);
     if (!program) return proof;
     compare_chunks(input, *program, proof);
     if (input.cell.machine) check_scallop(input, proof);
@@ -207,6 +208,12 @@ JobProof prove(const ProofInput& input, const Context& context) {
     options.cell = input.replay_cell;
     try {
         ReplayScene scene = scene_of(input);
+        std::optional<Cell> cell_as_entered;
+        if (input.entered != nullptr) {
+            cell_as_entered = cell_with(*input.entered, input.cell);
+            enter_in_program(*input.entered, input, *program);
+            enter_in_scene(*input.entered, input, *cell_as_entered, scene);
+        }
         const std::optional<StockRecord> before = stock_before(input);
         if (before) scene.before = &*before;
         const ReplayReport report = replay(*program, scene, options, context);

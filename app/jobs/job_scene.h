@@ -13,6 +13,7 @@
 
 namespace qchopper {
 
+struct EnteredValues;
 struct ParsedProgram;
 struct ReplayScene;
 struct StockRecord;
@@ -30,6 +31,9 @@ struct ProofInput {
     double replay_cell = 0.25;                        // mm; that of the stock
     // The figures of the chunks stand in the manifest, and are compared with what is read.
     bool is_stated = true;
+    // What a person enters at the controller in place of the planned values (app/jobs/entered/entered_values.h), which
+    // difference_from_plan() took; nullptr: nothing. It must outlive this.
+    const EnteredValues* entered = nullptr;
 };
 
 // The mesh of piece.stl, its corners welded where they are equal. Throws InputError (mesh) naming `source`.

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever toolpath, program, post or proof make something else of the same source.
-constexpr std::uint32_t version_of_programs = 8;
+constexpr std::uint32_t version_of_programs = 9;
 
 void put(CacheWriter& out, const JobHole& hole) {
     out.put(hole.number);
@@ -96,16 +96,19 @@ ProvenProgram part_from(CacheReader& in) {
     return part;
 }
 
-// The part for a piece of another number.
-void renumber(ProvenProgram& part, std::uint16_t from, std::uint16_t to) {
+// The part for a piece of another name.
+void rename(ProvenProgram& part, const ProgramName& from, const ProgramName& to) {
     JobProgram& program = part.input.program;
-    program.entry = renumbered_name(program.entry, from, to);
-    for (std::string& file : program.files) file = renumbered_name(file, from, to);
-    for (JobChunk& chunk : program.chunks) chunk.file = renumbered_name(chunk.file, from, to);
+    program.entry = renamed_file(program.entry, from, to);
+    for (std::string& file : program.files) file = renamed_file(file, from, to);
+    for (JobChunk& chunk : program.chunks) chunk.file = renamed_file(chunk.file, from, to);
     part.proof.chunks = program.chunks;
+    for (ProofResult* proof : {static_cast<ProofResult*>(&part.proof), &part.input.proof}) {
+        for (ProofFinding& finding : proof->findings) finding.file = renamed_file(finding.file, from, to);
+    }
     std::map<std::string, std::string> texts;
     for (const auto& [name, text] : part.input.texts) {
-        texts[renumbered_name(name, from, to)] = renumbered_text(text, from, to);
+        texts[renamed_file(name, from, to)] = renamed_text(text, from, to);
     }
     part.input.texts = std::move(texts);
 }
@@ -118,17 +121,24 @@ std::vector<DrawnCap> decided(const ProgramSource& source, const std::vector<std
     return caps;
 }
 
-// Whether nothing but the names of files tells the number of the piece. Reasons may name a chunk.
-bool can_be_renumbered(const PiecePrograms& programs, const std::map<std::size_t, std::string>& reasons) {
-    const auto is_proven = [](const ProvenProgram& part) { return part.proof.is_proven(); };
-    const auto names_chunk = [](const auto& reason) { return reason.second.find("qc_") != std::string::npos; };
-    return programs.none_because.empty() && std::ranges::all_of(programs.parts, is_proven) &&
-           std::ranges::none_of(reasons, names_chunk);
+bool has_name(const std::string& words) {
+    return words.find("qc_") != std::string::npos;
+}
+
+// Whether nothing but the names of files tells which piece it is. Reasons, findings and notes may name a chunk.
+bool can_be_renamed(const PiecePrograms& programs, const std::map<std::size_t, std::string>& reasons) {
+    const auto names_chunk = [](const ProvenProgram& part) {
+        return std::ranges::any_of(part.proof.findings, has_name, &ProofFinding::text) ||
+               std::ranges::any_of(part.proof.notes, has_name);
+    };
+    return !has_name(programs.none_because) && std::ranges::none_of(programs.parts, names_chunk) &&
+           std::ranges::none_of(reasons, [](const auto& reason) { return has_name(reason.second); });
 }
 
 std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource& source) {
     PiecePrograms programs;
     const auto number = in.get<std::uint16_t>();
+    const ProgramName name{number, in.text()};
     programs.none_because = in.text();
     programs.is_machine_refusing = in.get<std::uint8_t>() != 0;
     if (in.get<std::uint8_t>() != 0) programs.place = block_placement_from(in);
@@ -142,9 +152,10 @@ std::optional<PiecePrograms> programs_from(CacheReader& in, const ProgramSource&
     programs.caps = decided(source, drilled, reasons);
     for (std::size_t parts = in.count(); parts > 0; --parts) programs.parts.push_back(part_from(in));
     if (!in.is_whole()) return std::nullopt;
-    if (number == source.job.piece_no) return programs;
-    if (!can_be_renumbered(programs, reasons)) return std::nullopt;
-    for (ProvenProgram& part : programs.parts) renumber(part, number, source.job.piece_no);
+    const ProgramName wanted = program_name(source.job);
+    if (name == wanted) return programs;
+    if (!can_be_renamed(programs, reasons)) return std::nullopt;
+    for (ProvenProgram& part : programs.parts) rename(part, name, wanted);
     return programs;
 }
 
@@ -205,6 +216,7 @@ namespace {
 CacheWriter written(const ProgramSource& source, const PiecePrograms& programs) {
     CacheWriter out;
     out.put(source.job.piece_no);
+    out.put(program_name(source.job).order);
     out.put(programs.none_because);
     out.put(static_cast<std::uint8_t>(programs.is_machine_refusing));
     out.put(static_cast<std::uint8_t>(programs.place.has_value()));

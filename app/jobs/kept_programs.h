@@ -3,8 +3,9 @@
 //
 // A file is named by a SHA-256 over all that programs are made from, and ends in a SHA-256 of its content: programs of
 // another source and damaged files are ignored. What is taken is what would be made again, to the byte
-// (tests/app/jobs/kept_programs_test.cpp). The number of the piece changes names alone (cam/post/post.h, renumbered):
-// programs that are proven are taken for another number of as many digits.
+// (tests/app/jobs/kept_programs_test.cpp). The number of the piece and its order change names alone
+// (cam/post/post.h, renamed): programs are taken for another name that is as long, unless a sentence about
+// them names a file.
 
 #pragma once
 

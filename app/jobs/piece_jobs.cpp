@@ -196,8 +196,9 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
         report.has_kept_programs = kept.has_value();
         if (kept) return std::move(*kept);
     }
-    PiecePrograms programs = make_programs(input.piece, piece_setup, input.piece_no, orders.cell, input.caps, context,
-                                           source.fine, kept_toolpath(toolpath_file(orders.folder / "cache", source)));
+    PiecePrograms programs =
+        make_programs(input.piece, piece_setup, program_name(input), orders.cell, input.caps, context, source.fine,
+                      kept_toolpath(toolpath_file(orders.folder / "cache", source)));
     keep_programs(file, source, programs);
     return programs;
 }

@@ -148,13 +148,13 @@ struct PostedProgram {
 };
 
 PostedProgram post(const Toolpath& path, const Drilling& drilling, const PlacedSetup& piece_setup,
-                   std::uint16_t piece_no, const Cell& cell, const Context& context) {
+                   const ProgramName& name, const Cell& cell, const Context& context) {
     Toolpath whole = path;
     const std::vector<Operation>& drilled = drilling.operations;
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
     const Setup setup = with_drill_orientations(piece_setup.setup(), drilling.orientations);
     const Program program = make_program(whole, setup, piece_setup.machine_reachability, cell, context);
-    return {post_program(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
+    return {post_program(program, cell, name), {program.left_out_mm, program.left_out_because}};
 }
 
 std::size_t bytes_of(const ProgramPart& part) {
@@ -173,13 +173,13 @@ std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
 
 // What refuses a program that drills this hole and does nothing else; empty: nothing.
 std::string refusal_alone(std::size_t number, const Drilling& drilling, const PlacedSetup& piece_setup,
-                          std::uint16_t piece_no, const Cell& cell, const Context& context) {
+                          const ProgramName& name, const Cell& cell, const Context& context) {
     Drilling alone = drilling;
     for (const std::size_t other : drilled_holes(drilling)) {
         if (other != number) leave_to_hand(alone, other, "not asked", piece_setup.setup());
     }
     try {
-        post({}, alone, piece_setup, piece_no, cell, context);
+        post({}, alone, piece_setup, name, cell, context);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -188,9 +188,9 @@ std::string refusal_alone(std::size_t number, const Drilling& drilling, const Pl
 
 // With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
 // where that does not help, without any.
-PostedProgram make_parts(MadePath& made, const PlacedSetup& piece_setup, std::uint16_t piece_no, const Cell& cell,
+PostedProgram make_parts(MadePath& made, const PlacedSetup& piece_setup, const ProgramName& name, const Cell& cell,
                          const Context& context) {
-    const auto posted = [&] { return post(made.toolpath, made.drilling, piece_setup, piece_no, cell, context); };
+    const auto posted = [&] { return post(made.toolpath, made.drilling, piece_setup, name, cell, context); };
     const auto leave = [&](std::size_t number, const std::string& why) {
         leave_to_hand(made.drilling, number, "the program cannot drill: " + why, piece_setup.setup());
     };
@@ -204,7 +204,7 @@ PostedProgram make_parts(MadePath& made, const PlacedSetup& piece_setup, std::ui
         const std::vector<std::size_t> before = drilled_holes(made.drilling);
         const Drilling all = made.drilling;
         for (const std::size_t number : before) {
-            const std::string alone = refusal_alone(number, all, piece_setup, piece_no, cell, context);
+            const std::string alone = refusal_alone(number, all, piece_setup, name, cell, context);
             if (!alone.empty()) leave(number, alone);
         }
         if (drilled_holes(made.drilling).size() < before.size()) continue;
@@ -300,7 +300,7 @@ ToolpathSettings settings_for(const Cell& cell, FineTools fine, const std::map<s
 
 // What follows after the toolpath.
 PiecePrograms programs_along(FollowedToolpath followed, const Piece& piece, const PlacedSetup& known,
-                             std::uint16_t piece_no, const Cell& cell, std::vector<DrawnCap> caps,
+                             const ProgramName& name, const Cell& cell, std::vector<DrawnCap> caps,
                              const Context& context) {
     if (!followed.none_because.empty()) {
         return without_programs(followed.none_because, followed.is_machine_refusing, std::move(caps));
@@ -313,7 +313,7 @@ PiecePrograms programs_along(FollowedToolpath followed, const Piece& piece, cons
     try {
         const StageTimer stage(context, "programs made");
         made.drilling = drilling_of(followed.removed, piece, piece_setup, planned, caps, context);
-        posted = make_parts(made, piece_setup, piece_no, planned, context);
+        posted = make_parts(made, piece_setup, name, planned, context);
     } catch (const InputError& error) {
         return without_programs(error.what(), dynamic_cast<const ProgramRefused*>(&error) != nullptr, std::move(caps));
     }
@@ -360,6 +360,10 @@ std::string no_programs_for(const Cell& cell) {
     return cell.machine ? "" : "the cell file describes no machine";
 }
 
+ProgramName program_name(const JobInput& job) {
+    return {job.piece_no, order_in_names(job.project_id)};
+}
+
 std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {
     decide_holes(caps, {}, {}, "there is no program: " + none_because);
     return caps;
@@ -398,14 +402,14 @@ FollowedToolpath follow_toolpath(const Piece& piece, const PlacedSetup& known, c
     }
 }
 
-PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, const ProgramName& name, const Cell& cell,
                             const std::vector<DrawnCap>& caps, const Context& context, FineTools fine,
                             std::optional<FollowedToolpath> followed) {
     std::map<std::uint16_t, double> feed_shares;
     for (int made = 1;; ++made) {
         std::optional<FollowedToolpath> own = std::exchange(followed, std::nullopt);
         if (!own) own = follow_toolpath(piece, known, cell, context, fine, feed_shares);
-        PiecePrograms programs = programs_along(*std::move(own), piece, known, piece_no, cell, caps, context);
+        PiecePrograms programs = programs_along(*std::move(own), piece, known, name, cell, caps, context);
         const std::set<std::uint16_t> too_fast = too_fast_tools(programs.parts);
         if (made == most_feeds) return programs;
         std::string numbers;

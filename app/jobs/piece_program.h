@@ -17,8 +17,10 @@
 #include "app/jobs/job_proof.h"
 #include "app/jobs/setups.h"
 #include "base/context.h"
+#include "cam/job/job.h"
 #include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
+#include "cam/post/post.h"
 #include "cam/stock/in_process_stock.h"
 #include "cam/toolpath/toolpath.h"
 #include "cam/toolpath/toolpath_settings.h"
@@ -49,6 +51,9 @@ struct PiecePrograms {
     bool is_machine_refusing = false;  // there is none because the arm does not follow the toolpath (ProgramRefused)
 };
 
+// How the files of a job's program are named: by the first six digits of the project's id and the piece's number.
+ProgramName program_name(const JobInput& job);
+
 // Numbers of the tools that remove foam too fast (FindingKind::removal_rate) in programs that their proofs refuse for
 // nothing else; else none.
 std::set<std::uint16_t> too_fast_tools(const std::vector<ProvenProgram>& parts);
@@ -67,10 +72,10 @@ FollowedToolpath follow_toolpath(const Piece& piece, const PlacedSetup& known, c
 // All steps, or those after the first if its result is given. The caps are those of the piece (caps_of()): of their
 // holes those that the robot can drill are drilled after finishing. Where a program cannot be made with a hole, this
 // hole is left to the hand. Preconditions: those of follow_toolpath(), of which `followed` is the result for the same
-// arguments, and piece_no >= 1. Where there is no program, none_because says why. Where the proof finds only that tools
-// remove foam too fast, the programs are made again with less feed of these, which is told as a message. Throws
-// Cancelled.
-PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, std::uint16_t piece_no, const Cell& cell,
+// arguments, and the number of the piece is at least 1. Where there is no program, none_because says why. Where the
+// proof finds only that tools remove foam too fast, the programs are made again with less feed of these, which is told
+// as a message. Throws Cancelled.
+PiecePrograms make_programs(const Piece& piece, const PlacedSetup& known, const ProgramName& name, const Cell& cell,
                             const std::vector<DrawnCap>& caps, const Context& context,
                             FineTools fine = FineTools::worthwhile, std::optional<FollowedToolpath> followed = {});
 

@@ -368,7 +368,7 @@ void copy_result(const WorkItem& item, const fs::path& from, const fs::path& to)
 
 WorkedPiece work_on(const WorkItem& item, const fs::path& results, const Context& context) {
     if (auto known = result_of(item, results)) return *std::move(known);
-    const PiecePrograms programs = make_programs(item.job.piece, item.piece_setup, item.job.piece_no, item.cell,
+    const PiecePrograms programs = make_programs(item.job.piece, item.piece_setup, program_name(item.job), item.cell,
                                                  item.job.caps, context, item.fine);
     const fs::path file = results / item.result;
     const Bytes made = programs_bytes(source_of(item), programs);

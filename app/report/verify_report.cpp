@@ -3,6 +3,7 @@
 #include "app/report/verify_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/report/columns.h"
@@ -18,6 +19,33 @@ void fields(V& v, T& view) {
     v("file", view.file);
     v("path_tolerance_mm", view.path_tolerance);
     v("surface_shift_mm", view.surface_shift);
+}
+
+template <class V, Of<EnteredBase> T>
+void fields(V& v, T& base) {
+    v("shift_mm", base.shift);
+    v("abc_deg", base.abc_deg);
+}
+
+template <class V, Of<BaseDifference> T>
+void fields(V& v, T& base) {
+    v("entered", base.entered);
+    v("planned", base.planned);
+    v("off_mm", base.shift);
+    v("off_deg", base.turn_deg);
+}
+
+template <class V, Of<LengthDifference> T>
+void fields(V& v, T& length) {
+    v("tool", length.tool);
+    v("entered_mm", length.entered);
+    v("planned_mm", length.planned);
+}
+
+template <class V, Of<EnteredDifference> T>
+void fields(V& v, T& difference) {
+    v("base", difference.base);
+    v("lengths", difference.lengths);
 }
 
 namespace {
@@ -53,8 +81,9 @@ Json job_json(const VerifiedJob& job) {
               {"findings", list_of(v.findings, finding_json)},
               {"findings_left_out", v.findings_left_out},
               {"notes", v.notes},
-              {"signature_fault", job.signature_fault},
-              {"verdict", verdict_file(job.file).string()}};
+              {"signature_fault", job.signature_fault}};
+    if (!job.entered) json["verdict"] = verdict_file(job.file).string();
+    if (job.entered) json["entered_values"] = json_of(*job.entered);
     if (job.view) {
         json["view"] = json_of(*job.view);
     }
@@ -77,6 +106,30 @@ std::string view_line(const WrittenView& view) {
     return text + ".";
 }
 
+// "base X 1000.00 Y 2.50 Z 310.00 A 0.000 B 0.000 C 0.000, 15.00 mm and 0.500 degrees from the planned one".
+std::string base_word(const BaseDifference& base) {
+    const EnteredBase& own = base.entered;
+    return "base X " + fixed(own.shift.x, 2) + " Y " + fixed(own.shift.y, 2) + " Z " + fixed(own.shift.z, 2) + " A " +
+           fixed(own.abc_deg.x, 3) + " B " + fixed(own.abc_deg.y, 3) + " C " + fixed(own.abc_deg.z, 3) + ", " +
+           fixed(base.shift, 2) + " mm and " + fixed(base.turn_deg, 3) + " degrees from the planned one";
+}
+
+// "tool 1 of 151.50 mm, 1.50 mm longer than planned".
+std::string length_word(const LengthDifference& length) {
+    const double off = length.entered - length.planned;
+    return "tool " + std::to_string(length.tool) + " of " + fixed(length.entered, 2) + " mm, " +
+           fixed(std::abs(off), 2) + " mm " + (off < 0 ? "shorter" : "longer") + " than planned";
+}
+
+std::string entered_line(const EnteredDifference& difference) {
+    std::string words;
+    if (difference.base) words = base_word(*difference.base);
+    for (const LengthDifference& length : difference.lengths) {
+        words += (words.empty() ? "" : "; ") + length_word(length);
+    }
+    return "Entered values: " + words + ".";
+}
+
 std::vector<MachineTime> times_of(const VerifyAnswer& answer) {
     std::vector<MachineTime> rows;
     for (const VerifiedJob& job : answer) rows.insert(rows.end(), job.verdict.time.begin(), job.verdict.time.end());
@@ -95,6 +148,7 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
     for (const VerifiedJob& job : answer) {
         text.push_back("piece " + job.verdict.piece + " (" + job.verdict.job +
                        "): " + (job.verdict.is_positive ? "verified" : "REFUSED"));
+        if (job.entered) text.push_back("  " + entered_line(*job.entered));
         if (!job.verdict.figures.empty()) text.push_back("  " + figures_word(job.verdict));
         add_findings(job.verdict, text);
         if (!job.signature_fault.empty()) text.push_back("  Signature REFUSED: " + job.signature_fault + ".");
@@ -104,8 +158,11 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
     if (const std::string line = time_line(times_of(answer)); !line.empty()) text.push_back(line);
     const auto positive = static_cast<std::size_t>(
         std::count_if(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; }));
-    text.push_back(std::to_string(positive) + " of " + counted(answer.size(), "job") +
-                   " verified; the verdict of each is written beside it.");
+    const bool is_entered =
+        std::any_of(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.entered.has_value(); });
+    text.push_back(std::to_string(positive) + " of " + counted(answer.size(), "job") + " verified" +
+                   (is_entered ? " with the entered values; no file was written, the verdict beside it is as it was."
+                               : "; the verdict of each is written beside it."));
     return text;
 }
 

@@ -75,9 +75,10 @@ inline constexpr TableKeys spindle_on{"spindle.on", {"output", "call"}};
 inline constexpr TableKeys spindle_speed{"spindle.speed", {"output", "call", "scale"}};
 inline constexpr TableKeys spindle_at_speed{"spindle.at_speed", {"input", "call"}};
 inline constexpr TableKeys spindle_off{"spindle.off", {"output", "call"}};
-inline constexpr TableKeys extraction{"extraction", {"on", "off"}};
+inline constexpr TableKeys extraction{"extraction", {"on", "off", "running"}};
 inline constexpr TableKeys extraction_on{"extraction.on", {"output", "call"}};
 inline constexpr TableKeys extraction_off{"extraction.off", {"output", "call"}};
+inline constexpr TableKeys extraction_running{"extraction.running", {"input", "call"}};
 inline constexpr TableKeys tool{
     "tool",
     {"diameter", "corner_radius", "tip_angle_deg", "flute_length", "stick_out", "holder", "feed_mm_per_s", "rpm",
@@ -97,15 +98,34 @@ inline constexpr TableKeys load_tolerance{"load_tolerance", {"mass_kg", "centre_
 inline constexpr TableKeys link{"link", {"to", "drop"}};
 inline constexpr TableKeys dowel{"dowel", {"diameter", "depth", "wall"}};
 
-inline constexpr auto all = std::to_array<TableKeys>({root,           reach,          table,
-                                                      rotary_table,   robot,          base,
-                                                      cable,          capsule,        spindle,
-                                                      spindle_on,     spindle_speed,  spindle_at_speed,
-                                                      spindle_off,    extraction,     extraction_on,
-                                                      extraction_off, tool,           stock,
-                                                      obstacle,       margin,         start,
-                                                      program,        load_tolerance, link,
-                                                      dowel,          holding,        saw});
+inline constexpr auto all = std::to_array<TableKeys>({root,
+                                                      reach,
+                                                      table,
+                                                      rotary_table,
+                                                      robot,
+                                                      base,
+                                                      cable,
+                                                      capsule,
+                                                      spindle,
+                                                      spindle_on,
+                                                      spindle_speed,
+                                                      spindle_at_speed,
+                                                      spindle_off,
+                                                      extraction,
+                                                      extraction_on,
+                                                      extraction_off,
+                                                      extraction_running,
+                                                      tool,
+                                                      stock,
+                                                      obstacle,
+                                                      margin,
+                                                      start,
+                                                      program,
+                                                      load_tolerance,
+                                                      link,
+                                                      dowel,
+                                                      holding,
+                                                      saw});
 
 // Of a file that describes neither robot nor spindle these have no meaning.
 inline constexpr auto of_machines =

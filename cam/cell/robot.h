@@ -91,6 +91,7 @@ struct Spindle {
 struct Extraction {
     std::optional<Signal> on;
     std::optional<Signal> off;
+    std::optional<Signal> running;  // input or call: it has started; in KRL
     bool operator==(const Extraction&) const = default;
 };
 

@@ -147,8 +147,16 @@ Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, 
 std::optional<Extraction> read_extraction(const TomlReader& root, Dialect dialect) {
     if (!root.has("extraction")) return std::nullopt;
     const TomlReader reader = root.table("extraction", keys_2::extraction);
-    return Extraction{read_signal(reader, "on", keys_2::extraction_on, dialect),
-                      read_signal(reader, "off", keys_2::extraction_off, dialect)};
+    Extraction extraction{read_signal(reader, "on", keys_2::extraction_on, dialect),
+                          read_signal(reader, "off", keys_2::extraction_off, dialect),
+                          read_signal(reader, "running", keys_2::extraction_running, dialect)};
+    if (extraction.running && !extraction.on) {
+        reader.refuse("running", "nothing switches the extraction on, which would be waited for", "name extraction.on");
+    }
+    if (extraction.running && dialect != Dialect::krl) {
+        reader.refuse("running", "only programs in KRL wait for the extraction", "leave it out");
+    }
+    return extraction;
 }
 
 ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& origins) {

@@ -34,10 +34,16 @@ void describe_chunk(const Program& program, const CellMachine& machine, const Ru
     const CuttingTool& tool = machine.tools[operation.tool];
     Box box;
     std::size_t moves = 0;
+    double seconds = 0;
     for (std::size_t r = range.first; r < range.first + range.count; ++r) {
         const ProgramRun& run = operation.runs[r];
         if (r == range.first) box = {run.start, run.start};
         moves += run.moves.size();
+        Vec3 from = run.start;
+        for (const ProgramMove& move : run.moves) {
+            seconds += norm(move.tip - from) / std::max(move.speed, 1e-3);
+            from = move.tip;
+        }
         for (int i = 0; i < 3; ++i) {
             const auto add = [&](double value) {
                 box.min[i] = std::min(box.min[i], value);
@@ -52,6 +58,7 @@ void describe_chunk(const Program& program, const CellMachine& machine, const Ru
     text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
     text.comment(std::string("operation ") + to_word(operation.kind));
     text.comment("moves of runs: " + std::to_string(moves));
+    text.comment("at their speeds: " + fixed(seconds, 0) + " s");
     text.comment("box of the tip in mm: " + box_words(box));
     text.comment(std::string("start from home: ") +
                  (starts_from_home(program, range) ? "free" : "not free, see the chunks before"));

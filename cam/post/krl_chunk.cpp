@@ -13,7 +13,6 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t longest_name = 24;
 constexpr double max_speed = 5;  // m/s
 constexpr int point_decimals = 2;
 constexpr int speed_decimals = 4;
@@ -49,36 +48,26 @@ bool set_rounding(double rounding_mm, double& current, KrlText& text) {
 
 }  // namespace
 
-void begin_program(const std::string& name, KrlText& text) {
-    if (name.size() > longest_name) {
-        throw InputError(InputFault::use, "the program name " + name + " has more than 24 characters");
-    }
-    text.line("&ACCESS RVP");
-    text.line("&REL 1");
-    text.line("&PARAM EDITMASK = *");
-    text.line("DEF " + name + "( )");
-}
-
 void KrlChunks::add_axis_speeds(KrlText& text) const {
     const std::string percent = " = " + fixed(100 * machine_.program.joint_share, 0);
     for (std::size_t i = 1; i <= axes_of_arm; ++i) text.line("$VEL_AXIS[" + std::to_string(i) + "]" + percent);
     for (std::size_t i = 1; i <= axes_of_arm; ++i) text.line("$ACC_AXIS[" + std::to_string(i) + "]" + percent);
+    if (!program_.external_axis) return;
+    const std::string external = "[" + std::to_string(*program_.external_axis) + "]";
+    text.line("$VEL_EXTAX" + external + percent);
+    text.line("$ACC_EXTAX" + external + percent);
 }
 
 void KrlChunks::add_tool(std::size_t tool, KrlText& text) const {
-    constexpr double max_kg = 10'000;
-    const ProgramTool& own = program_.tools[tool];
-    const Vec3 inertia = own.load.inertia_kg_m2;
-    text.line("$LOAD = {M " + written_number("M", own.load.mass_kg, 3, max_kg) + ",CM " +
-              krl::frame(own.load.centre_in_flange) + ",J {X " + written_number("J", inertia.x, 4, max_kg) + ",Y " +
-              written_number("J", inertia.y, 4, max_kg) + ",Z " + written_number("J", inertia.z, 4, max_kg) + "}}");
-    text.line("$TOOL = " + krl::frame(own.tool_in_flange));
+    const std::uint16_t number = machine_.tools[tool].number;
+    text.line("$LOAD = " + names_.load(number));
+    text.line("$TOOL = " + names_.tool(number));
 }
 
 void KrlChunks::add_base(KrlText& text) const {
-    if (!program_.external_axis) return text.line("$BASE = " + krl::frame(program_.base));
+    if (!program_.external_axis) return text.line("$BASE = " + names_.base());
     const std::string machine = "MACHINE_DEF[" + std::to_string(*program_.external_axis + 1) + "]";
-    text.line("$BASE = EK(" + machine + ".ROOT," + machine + ".MECH_TYPE," + krl::frame(program_.base) + ")");
+    text.line("$BASE = EK(" + machine + ".ROOT," + machine + ".MECH_TYPE," + names_.base() + ")");
 }
 
 void KrlChunks::add_joint_move(const Joints& joints, double table_angle, KrlText& text) const {
@@ -122,11 +111,13 @@ KrlText KrlChunks::run(const ProgramOperation& operation, const ProgramRun& run,
 KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const {
     const ProgramOperation& operation = program_.operations[range.operation];
     KrlText text;
-    begin_program(name, text);
+    krl::begin_program(name, text);
     describe_chunk(program_, machine_, range, order, total, text);
+    krl::watch_stops(names_, text);
     add_settings(operation, text);
     start_extraction(machine_, text);
     start_spindle(machine_, operation.rpm, text);
+    krl::watch_signals(machine_, names_, text);
     Stated stated;
     const ProgramRun& first = operation.runs[range.first];
     if (range.first > 0) add_joint_move(first.start_joints, operation.table_angle, text);
@@ -149,6 +140,7 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
         }
         for (const Joints& target : operation.exit.targets) add_joint_move(target, operation.table_angle, text);
     }
+    krl::unwatch_signals(machine_, text);
     text.line("END");
     return text;
 }

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "cam/cell/cell.h"
 #include "cam/post/dialect_post.h"
+#include "cam/post/krl_config.h"
 #include "cam/post/krl_text.h"
 #include "cam/program/program.h"
 
@@ -14,7 +16,10 @@ namespace qchopper {
 class KrlChunks {
  public:
     // Both outlive this object. Precondition: check_signals() holds.
-    KrlChunks(const Program& program, const Cell& cell) : program_(program), machine_(*cell.machine) {}
+    KrlChunks(const Program& program, const Cell& cell, const std::string& piece)
+        : program_(program), machine_(*cell.machine), names_{piece} {}
+
+    const KrlNames& names() const { return names_; }
 
     // The whole text of a chunk. `order` counts from 0 over all parts; `total` is their number.
     KrlText chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const;
@@ -31,7 +36,7 @@ class KrlChunks {
     void add_tool(std::size_t tool, KrlText& text) const;
     // A joint move; angle of the table in radians.
     void add_joint_move(const Joints& joints, double table_angle, KrlText& text) const;
-    // Speeds and accelerations of the axes.
+    // Speeds and accelerations of the axes, that of the table included.
     void add_axis_speeds(KrlText& text) const;
 
  private:
@@ -41,9 +46,7 @@ class KrlChunks {
 
     const Program& program_;
     const CellMachine& machine_;
+    KrlNames names_;
 };
-
-// &ACCESS to DEF. Throws InputError (use) if the name is longer than 24 characters.
-void begin_program(const std::string& name, KrlText& text);
 
 }  // namespace qchopper

@@ -17,6 +17,11 @@ void switch_signal(const std::optional<Signal>& signal, bool is_on, KrlText& tex
     text.line("$OUT[" + signal->target + "] = " + (is_on ? "TRUE" : "FALSE"));
 }
 
+void wait_for(const Signal& signal, KrlText& text) {
+    if (signal.kind == SignalKind::call) return text.line(signal.target + "( )");
+    text.line("WAIT FOR $IN[" + signal.target + "]");
+}
+
 }  // namespace
 
 void start_spindle(const CellMachine& machine, double rpm, KrlText& text) {
@@ -32,8 +37,7 @@ void start_spindle(const CellMachine& machine, double rpm, KrlText& text) {
         }
     }
     switch_signal(spindle.on, true, text);
-    if (spindle.at_speed->kind == SignalKind::call) return text.line(spindle.at_speed->target + "( )");
-    text.line("WAIT FOR $IN[" + spindle.at_speed->target + "]");
+    wait_for(*spindle.at_speed, text);
 }
 
 void stop_spindle(const CellMachine& machine, KrlText& text) {
@@ -41,19 +45,13 @@ void stop_spindle(const CellMachine& machine, KrlText& text) {
 }
 
 void start_extraction(const CellMachine& machine, KrlText& text) {
-    if (machine.extraction) switch_signal(machine.extraction->on, true, text);
+    if (!machine.extraction) return;
+    switch_signal(machine.extraction->on, true, text);
+    if (machine.extraction->running) wait_for(*machine.extraction->running, text);
 }
 
 void stop_extraction(const CellMachine& machine, KrlText& text) {
     if (machine.extraction) switch_signal(machine.extraction->off, false, text);
-}
-
-void ask_for_tool(const CellMachine& machine, const CuttingTool& tool, KrlText& text) {
-    if (machine.program.tool_change_call) {
-        return text.line(*machine.program.tool_change_call + "(" + std::to_string(tool.number) + ")");
-    }
-    text.comment("ASK " + tool_question(tool));
-    text.line("HALT");
 }
 
 }  // namespace qchopper

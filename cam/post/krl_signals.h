@@ -1,4 +1,4 @@
-// Lines that switch spindle and extraction and ask for a tool, by the signals and calls that a cell file names.
+// Lines that switch spindle and extraction, by the signals and calls that a cell file names.
 
 #pragma once
 
@@ -13,7 +13,5 @@ void start_spindle(const CellMachine& machine, double rpm, KrlText& text);
 void stop_spindle(const CellMachine& machine, KrlText& text);
 void start_extraction(const CellMachine& machine, KrlText& text);
 void stop_extraction(const CellMachine& machine, KrlText& text);
-// The call that the cell file names, or a stop in which the operator changes the tool and checks its length.
-void ask_for_tool(const CellMachine& machine, const CuttingTool& tool, KrlText& text);
 
 }  // namespace qchopper

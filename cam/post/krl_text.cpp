@@ -15,6 +15,7 @@ namespace qchopper {
 namespace {
 
 constexpr double max_degrees = 3600;
+constexpr std::size_t longest_name = 24;
 
 // An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
 std::string angle(const char* name, double value, int decimals) {
@@ -61,6 +62,24 @@ std::string joints(const Joints& joints) {
 std::string external(int axis, double angle) {
     const std::string name = "E" + std::to_string(axis);
     return name + " " + written_number(name, degrees_per_radian * angle, 3, max_degrees);
+}
+
+std::string load(const LoadData& load) {
+    constexpr double max_kg = 10'000;
+    const Vec3 inertia = load.inertia_kg_m2;
+    return "{M " + written_number("M", load.mass_kg, 3, max_kg) + ",CM " + frame(load.centre_in_flange) + ",J {X " +
+           written_number("J", inertia.x, 4, max_kg) + ",Y " + written_number("J", inertia.y, 4, max_kg) + ",Z " +
+           written_number("J", inertia.z, 4, max_kg) + "}}";
+}
+
+void begin_program(const std::string& name, KrlText& text) {
+    if (name.size() > longest_name) {
+        throw InputError(InputFault::use, "the program name " + name + " has more than 24 characters");
+    }
+    text.line("&ACCESS RVP");
+    text.line("&REL 1");
+    text.line("&PARAM EDITMASK = *");
+    text.line("DEF " + name + "( )");
 }
 
 }  // namespace krl

@@ -9,6 +9,7 @@
 #include "base/pose.h"
 #include "cam/cell/arm.h"
 #include "cam/post/program_lines.h"
+#include "cam/program/program.h"
 
 namespace qchopper {
 
@@ -27,6 +28,10 @@ std::string angles(const Pose& pose, int decimals);
 std::string frame(const Pose& pose);
 // "A1 0.000,...,A6 0.000" in degrees.
 std::string joints(const Joints& joints);
+// "{M 16.200,CM {X 0.000,...},J {X 0.2716,...}}"
+std::string load(const LoadData& load);
+// &ACCESS to DEF. Throws InputError (use) if the name is longer than 24 characters.
+void begin_program(const std::string& name, KrlText& text);
 // "E1 30.000": the external axis at an angle in radians.
 std::string external(int axis, double angle);
 

@@ -11,16 +11,13 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/hex.h"
 #include "base/text.h"
 #include "cam/post/dialect_post.h"
 #include "cam/post/post_signals.h"
 
 namespace qchopper {
 namespace {
-
-std::string name_of(std::uint32_t piece) {
-    return "qc_" + std::to_string(piece);
-}
 
 // Names of one piece.
 struct Names {
@@ -64,8 +61,8 @@ struct WrittenChunk {
     ProgramText file;
 };
 
-// A main program with one more chunk is not larger than this.
-constexpr std::size_t bytes_of_main = 2'500;
+// A main program with its configuration module and one more chunk is not larger than this.
+constexpr std::size_t bytes_of_main = 6'500;
 constexpr std::size_t bytes_per_call = 600;  // with a tool change and a turn of the table
 
 // The first chunk of every part: whole operations, because between them the arm is at home.
@@ -115,12 +112,19 @@ bool is_of_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// Comments and messages, in any of the languages.
-bool is_for_people(std::string_view line) {
+// Where in a line the words begin that people read: comments and messages, in any of the languages. The comment that
+// states the name of the program counts as a line of it.
+std::size_t words_for_people(std::string_view line) {
     const std::size_t first = line.find_first_not_of(' ');
-    if (first == std::string_view::npos) return true;
-    line.remove_prefix(first);
-    return line.starts_with(';') || line.starts_with('!') || line.starts_with('(') || line.starts_with("TPWrite ");
+    if (first == std::string_view::npos) return line.size();
+    const std::string_view text = line.substr(first);
+    if (text.starts_with(";program ")) return line.size();
+    if (text.starts_with(';') || text.starts_with('!') || text.starts_with('(') || text.starts_with("TPWrite "))
+        return 0;
+    const std::size_t quote = line.find("(\"");
+    const bool is_message = quote != std::string_view::npos &&
+                            (line.substr(0, quote).ends_with("_ask") || line.substr(0, quote).ends_with("_say"));
+    return is_message ? quote : line.size();
 }
 
 // Whether the text goes on at `at` with a name of the piece: alone, or with a part or a chunk behind it.
@@ -140,8 +144,13 @@ constexpr std::array<DialectRow, 3> dialects{
 
 }  // namespace
 
+std::string order_in_names(const Uuid& project_id) {
+    constexpr std::size_t digits = 6;
+    return to_hex(project_id).substr(0, digits);
+}
+
 std::string piece_name(const ProgramName& name) {
-    return name_of(name.piece);
+    return "qc_" + (name.order.empty() ? "" : name.order + "_") + std::to_string(name.piece);
 }
 
 std::unique_ptr<DialectPost> post_in_dialect(const Program& program, const Cell& cell, const std::string& piece) {
@@ -149,31 +158,31 @@ std::unique_ptr<DialectPost> post_in_dialect(const Program& program, const Cell&
     return row->make(program, cell, piece);
 }
 
-std::string renumbered_name(const std::string& file, std::uint32_t from, std::uint32_t to) {
-    const std::string piece = name_of(from);
-    return is_name_at(file, 0, piece) ? name_of(to) + file.substr(piece.size()) : file;
+std::string renamed_file(const std::string& file, const ProgramName& from, const ProgramName& to) {
+    const std::string piece = piece_name(from);
+    return is_name_at(file, 0, piece) ? piece_name(to) + file.substr(piece.size()) : file;
 }
 
 // Everywhere but in comments and in what the operator reads.
-std::string renumbered_text(const std::string& text, std::uint32_t from, std::uint32_t to) {
-    const std::string piece = name_of(from);
-    std::string renumbered;
-    renumbered.reserve(text.size());
+std::string renamed_text(const std::string& text, const ProgramName& from, const ProgramName& to) {
+    const std::string piece = piece_name(from);
+    const std::string other = piece_name(to);
+    std::string renamed;
+    renamed.reserve(text.size());
     for (std::size_t line = 0; line < text.size();) {
         const std::size_t end = std::min(text.find('\n', line), text.size() - 1) + 1;
         std::size_t at = line;
-        if (!is_for_people(std::string_view(text).substr(line, end - line))) {
-            for (std::size_t found = text.find(piece, at); found < end; found = text.find(piece, at)) {
-                const bool is_name = is_name_at(text, found, piece) && (found == line || !is_of_name(text[found - 1]));
-                renumbered.append(text, at, found - at);
-                renumbered += is_name ? name_of(to) : piece;
-                at = found + piece.size();
-            }
+        const std::size_t words = line + words_for_people(std::string_view(text).substr(line, end - line));
+        for (std::size_t found = text.find(piece, at); found < words; found = text.find(piece, at)) {
+            const bool is_name = is_name_at(text, found, piece) && (found == line || !is_of_name(text[found - 1]));
+            renamed.append(text, at, found - at);
+            renamed += is_name ? other : piece;
+            at = found + piece.size();
         }
-        renumbered.append(text, at, end - at);
+        renamed.append(text, at, end - at);
         line = end;
     }
-    return renumbered;
+    return renamed;
 }
 
 std::vector<ProgramPart> post_program(const Program& program, const Cell& cell, const ProgramName& name) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/uuid.h"
 #include "cam/cell/cell.h"
 #include "cam/post/program_lines.h"
 #include "cam/program/program.h"
@@ -41,18 +42,25 @@ struct ProgramPart {
     bool operator==(const ProgramPart&) const = default;
 };
 
+// Which piece of which order a program carves: names are NAME, NAME_p<part>, NAME_<chunk> and NAME_cfg, where NAME is
+// qc_<order>_<piece>.
 struct ProgramName {
-    std::uint32_t piece = 1;  // number of the piece: names are qc_<piece>, qc_<piece>_p<part>, qc_<piece>_<chunk>
+    std::uint32_t piece = 1;  // its number
+    std::string order = {};   // the first six hexadecimal digits of the project's id; empty: NAME is qc_<piece>
+    bool operator==(const ProgramName&) const = default;
 };
 
-// "qc_7", with which the names of all files of a piece begin.
+// The first six hexadecimal digits of a project's id: ProgramName::order.
+std::string order_in_names(const Uuid& project_id);
+
+// "qc_3f09a2_7", with which the names of all files of a piece begin.
 std::string piece_name(const ProgramName& name);
 
-// The name of a file, and its text, that post_program writes of the same program for a piece of another number of as
-// many digits; with more digits a program may be divided elsewhere. Preconditions: both are of one that it wrote for
+// The name of a file, and its text, that post_program writes of the same program for another piece whose name is as
+// long; with a longer one a program may be divided elsewhere. Preconditions: both are of one that it wrote for
 // the piece `from` (tests/cam/post/krl_test.cpp). O(bytes).
-std::string renumbered_name(const std::string& file, std::uint32_t from, std::uint32_t to);
-std::string renumbered_text(const std::string& text, std::uint32_t from, std::uint32_t to);
+std::string renamed_file(const std::string& file, const ProgramName& from, const ProgramName& to);
+std::string renamed_text(const std::string& text, const ProgramName& from, const ProgramName& to);
 
 // At least one part. Preconditions: the cell has a machine, and the program is of it. Throws InputError (config) if the
 // cell file lacks a signal, the language cannot say what the program does, or one chunk does not fit into the memory;

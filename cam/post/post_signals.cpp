@@ -27,6 +27,19 @@ std::string tool_question(const CuttingTool& tool) {
            fixed(gauge_length(tool), 2) + " mm from the nose to the tip: check its length";
 }
 
+std::string tool_words(const CuttingTool& tool) {
+    return "tool " + std::to_string(tool.number) + ", " + tool.name + ": " + fixed(gauge_length(tool), 2) +
+           " mm from the nose to the tip, stick-out " + fixed(tool.stick_out, 2) + " mm";
+}
+
+std::vector<std::string> krl_tool_questions(const CuttingTool& tool) {
+    constexpr std::size_t longest_name = 45;
+    const std::string number = std::to_string(tool.number);
+    return {"Put tool " + number + " (" + tool.name.substr(0, longest_name) + ") into the spindle.",
+            "Measure tool " + number + ": " + fixed(gauge_length(tool), 2) + " mm from nose to tip, stick-out " +
+                fixed(tool.stick_out, 2) + " mm."};
+}
+
 std::string part_question(std::size_t part) {
     return "part " + std::to_string(part) + " has ended, and this is the same block, not moved";
 }

@@ -29,8 +29,14 @@ void read_axis(ProgramLine& line, std::array<double, 6>& shares, std::array<bool
     stated[axis - 1] = true;
 }
 
+// The same of an external axis, of which a program has one.
+double read_external(ProgramLine& line) {
+    line.index(1, 6);
+    return above_zero(line, 100) / 100;
+}
+
 // EK(MACHINE_DEF[n].ROOT,MACHINE_DEF[n].MECH_TYPE,{...})
-void read_chained_base(ProgramLine& line, ModalState& state) {
+void read_chained_base(ProgramLine& line, const KrlModule& module, ModalState& state) {
     const auto machine = [&](std::string_view member) {
         line.need_word("machine_def");
         const std::uint32_t n = line.index(2, 7);
@@ -43,15 +49,15 @@ void read_chained_base(ProgramLine& line, ModalState& state) {
     const std::uint32_t root = machine("root");
     const std::uint32_t type = machine("mech_type");
     if (root != type) line.refuse("the base is chained to two machines");
-    state.base = read_frame(line);
+    state.base = read_frame(line, module);
     line.need(')');
     state.base_machine = root;
 }
 
-void read_base(ProgramLine& line, ModalState& state) {
+void read_base(ProgramLine& line, const KrlModule& module, ModalState& state) {
     line.need('=');
-    if (line.takes_word("ek")) return read_chained_base(line, state);
-    state.base = read_frame(line);
+    if (line.takes_word("ek")) return read_chained_base(line, module, state);
+    state.base = read_frame(line, module);
     state.base_machine = 0;
 }
 
@@ -86,7 +92,8 @@ void read_rounding(ProgramLine& line, ModalState& state, StatedHere& stated) {
 
 }  // namespace
 
-bool read_assignment(const std::string& name, ProgramLine& line, ModalState& state, StatedHere& stated) {
+bool read_assignment(const std::string& name, ProgramLine& line, const KrlModule& module, ModalState& state,
+                     StatedHere& stated) {
     if (name == "$advance") {
         state.look_ahead = static_cast<int>((line.need('='), line.integer(0, 5)));
     } else if (name == "$apo") {
@@ -99,17 +106,23 @@ bool read_assignment(const std::string& name, ProgramLine& line, ModalState& sta
         read_axis(line, state.axis_speed, stated.axis_speed);
     } else if (name == "$acc_axis") {
         read_axis(line, state.axis_acceleration, stated.axis_acceleration);
+    } else if (name == "$vel_extax") {
+        state.table_speed = read_external(line);
+        stated.table_speed = true;
+    } else if (name == "$acc_extax") {
+        state.table_acceleration = read_external(line);
+        stated.table_acceleration = true;
     } else if (name == "$load") {
         line.need('=');
-        state.load = read_load(line);
+        state.load = read_load(line, module);
         stated.load = true;
     } else if (name == "$tool") {
         line.need('=');
-        state.tool = read_frame(line);
+        state.tool = read_frame(line, module);
         stated.tool = true;
         stated.pose = false;
     } else if (name == "$base") {
-        read_base(line, state);
+        read_base(line, module, state);
         stated.base = true;
         stated.pose = false;
     } else {

@@ -38,7 +38,7 @@ void find_body(KrlFile& file) {
     line.need_word(file.is_source ? "def" : "defdat");
     if (line.word() != file.stem) line.refuse("the name is not that of the file");
     if (file.is_source) line.need('('), line.need(')');
-    if (!file.is_source) line.takes_word("public");
+    if (!file.is_source) file.is_public = line.takes_word("public");
     line.need_end();
     file.first = at + 1;
     const std::string_view closing = file.is_source ? "end" : "enddat";
@@ -58,7 +58,7 @@ bool is_krl_comment(std::string_view line) {
 
 KrlFile read_krl_file(const ProgramFile& file) {
     const std::string lower = lower_case(file.name);
-    KrlFile read{&file.name, lower.substr(0, lower.find('.')), lower.ends_with(".src"), {}, 0, 0};
+    KrlFile read{&file.name, lower.substr(0, lower.find('.')), lower.ends_with(".src"), false, {}, 0, 0};
     if (lower != read.stem + (read.is_source ? ".src" : ".dat") || !is_program_name(read.stem, longest_name)) {
         refuse_line(file.name, 1, "this is no name of a KRL program");
     }

@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,7 @@ struct KrlFile {
     const std::string* name = nullptr;    // with ending, as given
     std::string stem;                     // in lower case, without ending
     bool is_source = false;               // .src; else .dat
+    bool is_public = false;               // of a .dat: its data are for all programs
     std::vector<std::string_view> lines;  // without their ends
     std::size_t first = 0;                // line after DEF or DEFDAT, counted from 0
     std::size_t end = 0;                  // the line with END or ENDDAT, counted from 0
@@ -68,6 +71,45 @@ ProgramFrame read_frame(ProgramLine& line);
 // {M m,CM {X x,Y y,Z z,A a,B b,C c},J {X x,Y y,Z z}}
 ProgramLoad read_load(ProgramLine& line);
 
+// krl_config.cpp: the configuration module of a program.
+
+enum class KrlRoutineKind : std::uint8_t {
+    stopped,  // switches off
+    fallen,   // stops the arm, switches off, retracts the tool and never returns
+    ask,      // a dialog with its argument, which is waited for
+    say       // a message
+};
+
+struct KrlRoutine {
+    KrlRoutineKind kind = KrlRoutineKind::stopped;
+    std::set<std::string> switched_off;  // numbers of outputs, and programs that are called
+    std::size_t line = 0;                // of its END, from 1
+    Vec3 retract;                        // mm, in the frame of the tool
+    std::size_t retract_line = 0;
+};
+
+struct KrlModule {
+    std::string source;  // its file; empty: there is no module
+    std::map<std::string, ProgramFrame> frames;
+    std::map<std::string, ProgramLoad> loads;
+    std::map<std::string, KrlRoutine> routines;
+};
+
+// `calls` in lower case: programs that a routine may call. Refused, with the line: anything else than
+// docs/developer/formats/programs.md states of a module.
+KrlModule read_krl_module(const KrlFile& source, const KrlFile& data, const std::vector<std::string>& calls);
+
+// {...}, or the name of one that the module states.
+ProgramFrame read_frame(ProgramLine& line, const KrlModule& module);
+ProgramLoad read_load(ProgramLine& line, const KrlModule& module);
+
+// The number of an output that is switched on or off behind "$OUT": [n] = TRUE or FALSE.
+struct KrlOutput {
+    std::uint32_t number = 0;
+    bool is_on = false;
+};
+KrlOutput read_output(ProgramLine& line);
+
 // krl_assignment.cpp
 
 // What one file has stated itself, and what its next LIN must repeat.
@@ -81,11 +123,14 @@ struct StatedHere {
     std::array<bool, 2> turn_speed{};
     std::array<bool, 6> axis_speed{};
     std::array<bool, 6> axis_acceleration{};
+    bool table_speed = false;
+    bool table_acceleration = false;
     bool pose = false;  // the LIN may leave out what stays
 };
 
 // `name` is the word that the line begins with, with its $; the line stands behind it. Whether it is a modal value,
 // which is then read and put into `state`; anything wrong in it is refused.
-bool read_assignment(const std::string& name, ProgramLine& line, ModalState& state, StatedHere& stated);
+bool read_assignment(const std::string& name, ProgramLine& line, const KrlModule& module, ModalState& state,
+                     StatedHere& stated);
 
 }  // namespace qchopper

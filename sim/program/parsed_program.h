@@ -55,6 +55,8 @@ struct ModalState {
     std::array<double, 2> turn_speed{};  // of the orientation, radians/s
     std::array<double, 6> axis_speed{};  // share of the largest, 0..1; 0: not stated
     std::array<double, 6> axis_acceleration{};
+    double table_speed = 0;  // of the external axis, as axis_speed
+    double table_acceleration = 0;
     double rounding = 0;  // distance from the corner, as $APO.CDIS; of a gantry the deviation, P of G64
     int look_ahead = -1;  // $ADVANCE; -1: not stated
     // Of a program for a gantry: the tool that was changed in last, and the tool whose length is taken from the
@@ -115,6 +117,10 @@ struct ParsedProgram {
     std::vector<ModalState> states;
     std::vector<ProgramStep> steps;    // in the order of execution
     std::vector<ProgramChunk> chunks;  // in the order of execution; they cover the steps
+    // By how much the tool is retracted, mm in its frame, where a signal has fallen; nothing: the program retracts
+    // none.
+    std::optional<Vec3> retract;
+    SourcePlace retract_place;
 };
 
 // The number or the name, in lower case, of the input or output of a step.

@@ -213,10 +213,11 @@ bool StockMilling::is_body_in_stock(const TipPose& pose, double from, double to,
 }
 
 void StockMilling::take_sweep(const JointSweep& sweep) {
-    if (!sweep.is_checked_only) ++figures_.rapids;
+    if (!sweep.is_checked_only && !sweep.is_of_line) ++figures_.rapids;
     if (!sweep.is_checked_only) deep_way_.reset();
     const auto find = [&](FindingKind kind, const std::string& what) {
-        if (!sweep.is_checked_only) return log_.add(kind, sweep.place, "on a joint move " + what);
+        const std::string way = sweep.is_of_line ? "on the line behind a joint move " : "on a joint move ";
+        if (!sweep.is_checked_only) return log_.add(kind, sweep.place, way + what);
         log_.add(FindingKind::start_from_home, sweep.place,
                  "the comment says that the start from home is free, and on it " + what);
     };

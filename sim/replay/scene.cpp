@@ -15,6 +15,11 @@ void demand(bool holds, const char* what) {
 
 }  // namespace
 
+double ReplayScene::planned_length(const CuttingTool& tool) const {
+    const auto planned = planned_lengths.find(tool.number);
+    return planned != planned_lengths.end() ? planned->second : gauge_length(tool);
+}
+
 void check_scene(const ReplayScene& scene) {
     demand(scene.cell != nullptr && scene.cell->machine, "the cell file describes no machine");
     demand(!scene.orientations.empty(), "the job has no orientation");

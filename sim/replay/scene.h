@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,7 +74,15 @@ struct ReplayScene {
     std::vector<SceneHole> holes = {};  // all of the piece
     // Numbers of the tools that the setup may use; empty: all of the cell.
     std::vector<std::uint16_t> tools = {};
+    // Where a person has entered other values at the controller than the planned ones, cell and frames are as entered,
+    // and this is what stays as planned. Joint moves stay: their ends are turned by the angle between the entered and
+    // the planned frame of the setup, radians.
+    double entered_turn = 0;
+    // The lengths (gauge_length()) that the program asks for, by the number of the tool; of other tools that of the
+    // cell.
+    std::map<std::uint16_t, double> planned_lengths = {};
 
+    double planned_length(const CuttingTool& tool) const;
     // Below it no tool point may be: 2 mm of the spoil layer stay whole.
     double floor_z() const { return -spoil + 2; }
 };

@@ -25,6 +25,10 @@ MaybeSignal extraction_off(const CellMachine& machine) {
     return machine.extraction ? machine.extraction->off : std::nullopt;
 }
 
+MaybeSignal extraction_running(const CellMachine& machine) {
+    return machine.extraction ? machine.extraction->running : std::nullopt;
+}
+
 // The line that switches off; `word`: of a language that has a word for it.
 std::string off_line(const CellMachine& machine, const MaybeSignal& on, const MaybeSignal& off, const char* word) {
     const MaybeSignal& signal = off ? off : on;
@@ -48,8 +52,8 @@ std::vector<std::string> called_programs(const Cell& cell) {
     if (!cell.machine) return names;
     const CellMachine& machine = *cell.machine;
     const Spindle& spindle = machine.spindle;
-    for (const MaybeSignal& signal :
-         {spindle.on, spindle.speed, spindle.at_speed, spindle.off, extraction_on(machine), extraction_off(machine)}) {
+    for (const MaybeSignal& signal : {spindle.on, spindle.speed, spindle.at_speed, spindle.off, extraction_on(machine),
+                                      extraction_off(machine), extraction_running(machine)}) {
         if (signal && signal->kind == SignalKind::call) names.push_back(signal->target);
     }
     if (machine.program.tool_change_call) names.push_back(*machine.program.tool_change_call);
@@ -65,6 +69,7 @@ void SignalWalk::take(const ProgramStep& step, const std::string& name) {
         take_speed(step.value / spindle.speed->scale);
     }
     if (step.kind == StepKind::wait_input) {
+        if (is_signal(extraction_running(machine_), SignalKind::input, name)) return;
         if (!is_signal(spindle.at_speed, SignalKind::input, name)) return refuse(step, "$IN", name);
         reach_speed();
     }

@@ -89,6 +89,8 @@ void StateCheck::take_joint_move(const ModalState& state, const MoveContext& mov
         check_limit(words_of(machine_).axis_acceleration + number, 100 * state.axis_acceleration[axis], most, "%",
                     move.place);
     }
+    check_limit("$VEL_EXTAX", 100 * state.table_speed, most, "%", move.place);
+    check_limit("$ACC_EXTAX", 100 * state.table_acceleration, most, "%", move.place);
 }
 
 void StateCheck::check_limit(const std::string& name, double stated, double most, const char* unit, SourcePlace place) {
@@ -135,7 +137,9 @@ void StateCheck::check_load(const ModalState& state, const MoveContext& move) {
     double least = std::numeric_limits<double>::infinity();
     for (const CuttingTool& tool : machine_.tools) {
         if (move.tool != nullptr && move.tool != &tool) continue;
-        const CarriedLoad expected = carried_load(machine_.spindle, tool);
+        CuttingTool planned = tool;  // load data is not entered anew
+        planned.stick_out += scene_.planned_length(tool) - gauge_length(tool);
+        const CarriedLoad expected = carried_load(machine_.spindle, planned);
         const double off = tolerances_between(stated, expected, machine_.load_tolerance);
         if (off < least) least = off, nearest = expected;
     }

@@ -62,6 +62,9 @@ struct JointSweep {
     bool is_checked_only =
         false;              // not gone: a comment says that the joint move from home to the chunk's start is free
     std::uint32_t use = 0;  // index in ToolPath::uses: of its chunk, or of the chunk before it
+    // No joint move, but the line behind one, on which the tool turns (ReplayScene::entered_turn): it is a line of the
+    // path too.
+    bool is_of_line = false;
 };
 
 // A tool in a kind of operation, as the comments of the chunks say it.

@@ -16,6 +16,7 @@
 #include "app/dispatch/dry_run.h"
 #include "app/engine/export_pieces.h"
 #include "app/engine/setup_project.h"
+#include "app/jobs/entered/entered_values.h"
 
 namespace qchopper {
 
@@ -206,6 +207,7 @@ struct VerifyArguments {
     std::optional<std::filesystem::path> cell;
     std::optional<std::string> piece;
     std::optional<std::filesystem::path> trusted;  // list of trusted keys
+    EnteredValues entered;                         // --base and --tool
 };
 
 // How a private key is named.

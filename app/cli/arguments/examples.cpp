@@ -76,7 +76,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper gather vertebra.qch --make-missing)"},
     {"verify", R"(  qchopper verify vertebra.qch
   qchopper verify vertebra.qch --piece B
-  qchopper verify B.qjob --cell cells/kr60-ha.toml)"},
+  qchopper verify B.qjob --cell cells/kr60-ha.toml
+  qchopper verify vertebra.qch/jobs/B.qjob --base 1012.5,-3.2,361.8,0.4,0,0 --tool 1=200.6 --tool 4=149.7)"},
     {"keys", R"(  qchopper keys make anna
   qchopper keys show
   qchopper keys trust anna.pub --name "Anna, office 2" --keys cell-keys.json

@@ -125,6 +125,28 @@ std::optional<TaughtPose> taught_pose_from(const std::string& text) {
     return TaughtPose{{v[0], v[1], v[2], v[3], v[4], v[5]}, {v[6], v[7], v[8]}, {v[9], v[10], v[11]}};
 }
 
+std::optional<EnteredBase> base_from(const std::string& text) {
+    const std::vector<std::string> parts = split(text);
+    std::array<double, 6> v{};
+    if (parts.size() != v.size()) return std::nullopt;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const std::optional<double> value = number_from(parts[i]);
+        if (!value || std::abs(*value) > 1e6) return std::nullopt;
+        v[i] = *value;
+    }
+    return EnteredBase{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+std::optional<EnteredLength> tool_length_from(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return std::nullopt;
+    const std::optional<double> number = number_from(text.substr(0, equals));
+    const std::optional<double> length = number_from(text.substr(equals + 1));
+    if (!number || *number < 0 || *number > 65535 || *number != std::floor(*number)) return std::nullopt;
+    if (!length || !(*length > 0)) return std::nullopt;
+    return EnteredLength{static_cast<std::uint16_t>(*number), *length};
+}
+
 std::optional<Vec3> print_volume_from(const std::string& text) {
     const std::optional<Vec3> v = lengths_from(text);
     return v && std::min({v->x, v->y, v->z}) >= 1 ? v : std::nullopt;

@@ -11,6 +11,7 @@
 
 #include "app/engine/discard_request.h"
 #include "app/engine/work_project.h"
+#include "app/jobs/entered/entered_values.h"
 #include "app/store/decisions.h"
 #include "cam/cell/taught_poses.h"
 #include "devices/wire/modbus_tcp.h"
@@ -40,6 +41,12 @@ std::optional<Vec3> lengths_from(const std::string& text);
 
 // "J1,J2,J3,J4,J5,J6=X,Y,Z,A,B,C": joints in degrees, then what the controller shows for them, mm and degrees.
 std::optional<TaughtPose> taught_pose_from(const std::string& text);
+
+// "X,Y,Z,A,B,C": mm and degrees, as the controller shows a base.
+std::optional<EnteredBase> base_from(const std::string& text);
+
+// "3=199.2": the number of a tool from 0 to 65535, and its length in mm, greater than zero.
+std::optional<EnteredLength> tool_length_from(const std::string& text);
 
 // The same as lengths_from, each at least 1.
 std::optional<Vec3> print_volume_from(const std::string& text);

@@ -100,6 +100,7 @@ struct Parser {
     SubmitArguments submit;
     GatherArguments gather;
     VerifyArguments verify;
+    std::vector<std::string> tool_lengths;  // of verify
     KeysArguments keys;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
@@ -423,8 +424,21 @@ struct Parser {
         takes_cell_name(c->add_option("--cell", verify.cell,
                                       "the cell file of a job file (cell.toml of the project that it lies in)"));
         c->add_option("--piece", verify.piece, "of a project only this piece");
+        c->add_option_function<std::string>(
+             "--base", [this](const std::string& text) { verify.entered.base = base_from(text); },
+             "X,Y,Z,A,B,C: the base that is entered at the controller in place of the planned one, mm and degrees; no "
+             "verdict is written")
+            ->check(read_by(base_from, "no X,Y,Z,A,B,C: three lengths in mm and three angles in degrees"));
+        c->add_option("--tool", tool_lengths,
+                      "N=LENGTH: the length of tool N from the spindle nose to the tip that is entered, mm; once for "
+                      "each tool")
+            ->allow_extra_args(false)
+            ->check(read_by(tool_length_from, "no N=LENGTH: the number of a tool and its length in mm"));
         add_list(c, verify.trusted);
-        add_common(c, common, [this] { common.command = verify; });
+        add_common(c, common, [this] {
+            for (const std::string& text : tool_lengths) verify.entered.lengths.push_back(*tool_length_from(text));
+            common.command = verify;
+        });
     }
 
     static void add_list(CLI::App* c, std::optional<std::filesystem::path>& list) {
@@ -520,7 +534,7 @@ struct Parser {
         c->add_option("--piece", dispatch.piece, "only this piece");
         c->add_option("--from-chunk", dispatch.from_chunk,
                       "restart the job of the piece that was stopped, from the chunk of this number, in the same "
-                      "block: that of the program file in which the machine stood, qc_7_012 is 12")
+                      "block: that of the program file in which the machine stood, qc_3f09a2_7_012 is 12")
             ->check(number_between(2, 65535, "the number of a chunk but the first"))
             ->needs("--piece");
         c->add_option_function<std::string>(

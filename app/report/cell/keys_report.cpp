@@ -19,6 +19,13 @@ struct ListedKey {
     TrustedKey key;
 };
 
+std::vector<ListedKey> listed(const std::vector<TrustedKey>& keys) {
+    std::vector<ListedKey> all;
+    all.reserve(keys.size());
+    for (const TrustedKey& key : keys) all.push_back({key});
+    return all;
+}
+
 struct SignedFiles {
     const std::vector<SignedJob>& jobs;
 };
@@ -61,8 +68,7 @@ template <class V, Of<KeysReport> T>
 void fields(V& v, T& report) {
     v.constant("schema", "qchopper-keys-1", "");
     v("list", report.list);
-    v.written("trusted",
-              [&] { return std::vector<ListedKey>(report.trusted.keys.begin(), report.trusted.keys.end()); });
+    v.written("trusted", [&] { return listed(report.trusted.keys); });
     v("own", report.own);
 }
 
@@ -128,6 +134,7 @@ Document document(const ChangedKey& changed) {
 
 std::vector<std::string> lines(const std::vector<SignedJob>& jobs) {
     std::vector<std::string> text;
+    text.reserve(jobs.size());
     for (const SignedJob& job : jobs) text.push_back("signed: " + printable(job.signature.string()));
     return text;
 }
@@ -142,6 +149,7 @@ bool is_all_right(const std::vector<CheckedSignature>& jobs) {
 
 std::vector<std::string> lines(const std::vector<CheckedSignature>& jobs) {
     std::vector<std::string> text;
+    text.reserve(jobs.size());
     for (const CheckedSignature& job : jobs) {
         text.push_back(printable(job.job.string()) +
                        (job.fault.empty() ? ": signed by a trusted key" : ": REFUSED: " + printable(job.fault)));

@@ -90,7 +90,8 @@ class Walk : public ProgramWalk {
     AxisMotion follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
     void check_speed(const Joints& before, double way, double feed, SourcePlace place);
     void check_table(const ProgramStep& step);
-    bool is_aligned(Vec3 tool_axis, SourcePlace place);
+    bool is_aligned(Vec3 tool_axis, SourcePlace place, double entered_turn = 0);
+    void add_turning_way(const Pose& from, const Pose& to, const Pose& tool_said, const ProgramStep& step);
     void add_line(Vec3 from, const TipPose& to, const ProgramStep& step, const ModalState& state,
                   const AxisMotion& motion);
     Pose base_in_robot(const ModalState& state) const;
@@ -215,17 +216,38 @@ void Walk::take_line(const ProgramStep& step) {
     const Pose flange = to * inverse(tool_said);
     const Pose tip = robot_.base_in_cell * (flange * tool_arm(robot_, machine_.spindle, tool()).tip_in_flange);
     const Pose setup = setup_in_cell();
-    if (!follows_line_) is_aligned(before.tool_axis, step.place);
+    if (!follows_line_) is_aligned(before.tool_axis, step.place, scene_.entered_turn);
+    if (!follows_line_ && scene_.entered_turn > 0) add_turning_way(from, to, tool_said, step);
     const Vec3 start = follows_line_ && !path_.lines.empty() ? path_.lines.back().to : before.tip;
     add_line(start, {apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2))}, step, state, motion);
     follows_line_ = true;
 }
 
+// The line behind a joint move, on which the tool turns from the joints as planned to the frame as entered. It must be
+// in air, with the tool as it really leans: what a tool removes while it turns is not reckoned.
+void Walk::add_turning_way(const Pose& from, const Pose& to, const Pose& tool_said, const ProgramStep& step) {
+    const Turn turn = turn_between(from, to);
+    const Pose setup = setup_in_cell();
+    const Pose tip_in_said = inverse(tool_said) * tool_arm(robot_, machine_.spindle, tool()).tip_in_flange;
+    const auto count = static_cast<std::size_t>(std::ceil(norm(to.shift - from.shift) / pose_step)) + 1;
+    JointSweep sweep{{}, step.place, tool_, 0, false, use_, true};
+    sweep.poses.reserve(count + 1);
+    for (std::size_t k = 0; k <= count; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(count);
+        Pose said = turned(from, turn, share);
+        said.shift = from.shift + share * (to.shift - from.shift);
+        const Pose tip = robot_.base_in_cell * (said * tip_in_said);
+        sweep.poses.push_back({apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2))});
+    }
+    path_.order.push_back({false, path_.sweeps.size()});
+    path_.sweeps.push_back(std::move(sweep));
+}
+
 // Where a line begins and ends: one along which the tool turns removes other foam than a tool that stands.
-bool Walk::is_aligned(Vec3 tool_axis, SourcePlace place) {
+bool Walk::is_aligned(Vec3 tool_axis, SourcePlace place, double entered_turn) {
     const Vec3 wanted = scene_.orientations[direction_].tool_axis;
     const double turn = std::atan2(norm(cross(tool_axis, wanted)), dot(tool_axis, wanted));
-    if (turn <= aligned_turn) return true;
+    if (turn <= aligned_turn + entered_turn) return true;
     log_.add(FindingKind::tool_axis, place, turn / degree, turn, [&] {
         return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the orientation of the chunk";
     });

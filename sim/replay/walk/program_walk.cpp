@@ -11,10 +11,12 @@
 namespace qchopper {
 namespace {
 
-// What a comment of a program can hold of a text.
+constexpr std::size_t longest_name_in_dialog = 45;
+
+// What a comment or message of a program can hold of a name.
 std::string as_comment(std::string text) {
     std::replace_if(
-        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '_');
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~' || c == '"'; }, '_');
     return text;
 }
 
@@ -40,6 +42,7 @@ ToolPath ProgramWalk::run(const Context& context) {
         }
     }
     check_end({program_.chunks.back().file, program_.chunks.back().end_line});
+    check_retract();
     if (path_.uses.empty()) use_tool(ProgramChunk().operation);
     if (next != scene_.chunks.size()) {
         log_.add(
@@ -85,7 +88,9 @@ void ProgramWalk::check_asked(const CuttingTool& tool, SourcePlace place) {
                  [&] { return name + " is needed, and nobody was asked for it"; });
     }
     if (!was_asked) return;
-    for (const std::string& words : {"(" + as_comment(tool.name) + ")", fixed(gauge_length(tool), 2) + " mm"}) {
+    const bool is_dialog = machine_.program.dialect == Dialect::krl;
+    const std::string name_there = as_comment(is_dialog ? tool.name.substr(0, longest_name_in_dialog) : tool.name);
+    for (const std::string& words : {"(" + name_there + ")", fixed(scene_.planned_length(tool), 2) + " mm"}) {
         if (asked_.find(" " + lower_case(words)) != std::string::npos) continue;
         log_.add(FindingKind::tool_change, asked_place_, tool.number, 0, [&] {
             std::string text = "who is asked for ";
@@ -148,6 +153,17 @@ void ProgramWalk::check_stop(SourcePlace place) {
     signals_.check_off(FindingKind::tool_change, place, "at this stop");
     if (is_home(false)) return;
     log_.add(FindingKind::not_home, place, "the machine is not at home at this stop");
+}
+
+// Where a signal has fallen the tool leaves the foam the way that it came.
+void ProgramWalk::check_retract() {
+    if (!program_.retract) return;
+    const bool is_x = machine_.spindle.tool_axis == ToolAxis::x;
+    const double along = is_x ? program_.retract->x : program_.retract->z;
+    if (along < 0 && norm(*program_.retract) == -along) return;
+    log_.add(
+        FindingKind::tool_axis, program_.retract_place,
+        std::string("the tool is not retracted along its axis, expected: ") + (is_x ? "-X" : "-Z") + " of its frame");
 }
 
 void ProgramWalk::check_end(SourcePlace place) {

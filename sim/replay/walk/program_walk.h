@@ -61,6 +61,7 @@ class ProgramWalk {
     void take_halt(const ProgramStep& step);
     void take_call(const ProgramStep& step);
     void check_end(SourcePlace place);
+    void check_retract();
     void use_tool(const std::string& operation);
 
     bool is_changed_ = false;                  // the tool, and no chunk is entered since

@@ -144,6 +144,19 @@ TEST(OptionValues, ATimeIsReadAsItIsWritten) {
     }
 }
 
+TEST(OptionValues, ABaseIsSixNumbersAndALengthBelongsToATool) {
+    EXPECT_EQ(base_from("1012.5,-3.2,361.8,0.4,0,-1e-3"), (EnteredBase{{1012.5, -3.2, 361.8}, {0.4, 0, -0.001}}));
+    for (const char* wrong : {"", "1,2,3", "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,3,4,5,nan", "1,2,3,4,5,inf", "1,2,3,4,5,",
+                              "1,2,3,4,5,1e9", "X 1,2,3,4,5,6", "1;2;3;4;5;6"}) {
+        EXPECT_EQ(base_from(wrong), std::nullopt) << wrong;
+    }
+    EXPECT_EQ(tool_length_from("3=199.2"), (EnteredLength{3, 199.2}));
+    for (const char* wrong : {"", "3", "=199", "3=", "3=long", "3=0", "3=-5", "3=nan", "3=inf", "1.5=199", "-1=199",
+                              "70000=199", "3=199=2", "a=199"}) {
+        EXPECT_EQ(tool_length_from(wrong), std::nullopt) << wrong;
+    }
+}
+
 TEST_F(CellCommands, TheJobsOfTheJournalAreListedExportedAndStayKnown) {
     start_cell("100000");
     EXPECT_EQ(dispatch().code, 0);

@@ -116,7 +116,7 @@ TEST_F(Restart, AJobThatWasHeldAndAbortedEndsAsOneVerifiedPiece) {
     const json document = json::parse(restarted.out);
     EXPECT_EQ(document.at("all_complete"), true);
     EXPECT_EQ(document.at("restart").at("from_chunk"), 25);
-    EXPECT_EQ(document.at("restart").at("chunk_file"), "qc_1_025.src");
+    EXPECT_TRUE(document.at("restart").at("chunk_file").get<std::string>().ends_with("_1_025.src"));
     EXPECT_EQ(document.at("restart").at("of_sha256"), to_hex(sha256(read_file(job("A.qjob")))));
     EXPECT_EQ(document.at("jobs").at(0).at("starts"), 1);
     EXPECT_TRUE(has(cell->err(), "A.qjob (piece 1 of 1): is the block loaded")) << cell->err();
@@ -245,7 +245,8 @@ TEST_F(Restart, AChangedCellFileOrStockIsRefused) {
     for (const Arguments& verify : {Arguments{"verify", "p.qch"}, Arguments{"verify", "p.qch/jobs/A.r9.qjob"}}) {
         const Ended ended = run(verify);
         EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
-        EXPECT_TRUE(has(ended.out, "stock.bin is not what the chunks before qc_1_009.src leave, as A.qjob has them"))
+        EXPECT_TRUE(has(ended.out, "stock.bin is not what the chunks before qc_") &&
+                    has(ended.out, "_1_009.src leave, as A.qjob has them"))
             << ended.out;
     }
     fs::create_directory(folder.path / "alone");

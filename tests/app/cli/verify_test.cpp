@@ -6,7 +6,9 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -298,15 +300,19 @@ TEST_F(VerifyCommand, HolesOtherThanThoseOfTheProjectAreNamed) {
 
 TEST_F(VerifyCommand, ATruncatedProgramIsNamedAndNotSent) {
     copy_project();
-    change_entry("qc_1.dat", [](Bytes& text) { text.back() = ' '; });
+    std::string data;  // of the main program
+    for (const auto& [name, bytes] : unzip(read_file(job), "A.qjob")) {
+        if (name.ends_with("_1.dat")) data = name;
+    }
+    change_entry(data, [](Bytes& text) { text.back() = ' '; });
     EXPECT_EQ(dispatch().code, exit_demand_broken) << "the verdict is that of other bytes";
     const Ended ended = run({"verify", "p.qch"});
     EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
-    EXPECT_TRUE(has(ended.out, "qc_1.dat")) << ended.out;
+    EXPECT_TRUE(has(ended.out, data)) << ended.out;
     const Ended refused = dispatch();
     EXPECT_EQ(refused.code, exit_demand_broken);
     EXPECT_TRUE(has(refused.err, "its verdict is negative: ")) << refused.err;
-    EXPECT_TRUE(has(refused.err, "qc_1.dat")) << refused.err;
+    EXPECT_TRUE(has(refused.err, data)) << refused.err;
 }
 
 TEST_F(VerifyCommand, AJobWithoutAProgramGoesToASimulatedCellOnly) {
@@ -347,6 +353,91 @@ TEST_F(VerifyCommand, AVerifiedJobGoesToTheCell) {
     EXPECT_FALSE(has(ended.err, "warning")) << ended.err;
     cell.signal(SIGTERM);
     EXPECT_EQ(cell.wait().code, 0);
+}
+
+// "1000.000,0.000,310.000,0.0000,0.0000,0.0000": of the configuration module, moved along x.
+std::string base_of(const fs::path& job, double moved) {
+    std::string source;
+    for (const auto& [name, bytes] : unzip(read_file(job), "A.qjob")) {
+        if (name.ends_with("_cfg.dat")) source = {bytes.begin(), bytes.end()};
+    }
+    const std::size_t at = source.find("_base = {X ");
+    EXPECT_NE(at, std::string::npos);
+    if (at == std::string::npos) return {};
+    std::array<double, 6> v{};
+    EXPECT_EQ(std::sscanf(source.c_str() + at, "_base = {X %lf,Y %lf,Z %lf,A %lf,B %lf,C %lf", &v[0], &v[1], &v[2],
+                          &v[3], &v[4], &v[5]),
+              6);
+    v[0] += moved;
+    std::string words;
+    for (const double value : v) words += (words.empty() ? "" : ",") + std::to_string(value);
+    return words;
+}
+
+TEST_F(VerifyCommand, EnteredValuesAreProvenAndNothingIsWritten) {
+    copy_project();
+    const std::string kept = program::bytes_in(verdict);
+    const Arguments base{"verify", job.string(), "--base", base_of(job, 15)};
+    const Ended ended = run(base);
+    EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+    EXPECT_TRUE(has(ended.out, "piece A (A.qjob): verified")) << ended.out;
+    EXPECT_TRUE(has(ended.out, "Entered values: base X ")) << ended.out;
+    EXPECT_TRUE(has(ended.out, ", 15.00 mm and 0.000 degrees from the planned one.")) << ended.out;
+    EXPECT_TRUE(has(ended.out, "1 of 1 job verified with the entered values; no file was written")) << ended.out;
+    EXPECT_EQ(program::bytes_in(verdict), kept);
+    EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "jobs" / "A.carved.glb"));
+
+    const json planned = json::parse(kept);
+    const int tool = planned["time"][0]["tool"];
+    const Ended too_long = run({"verify", job.string(), "--tool", std::to_string(tool) + "=900"});
+    EXPECT_EQ(too_long.code, exit_use);
+    const std::size_t at = too_long.err.find(" mm from the ");
+    ASSERT_NE(at, std::string::npos) << too_long.err;
+    const double length = std::stod(too_long.err.substr(at + 13)) + 1.5;
+    Arguments both = base;
+    both.insert(both.end(), {"--tool", std::to_string(tool) + "=" + std::to_string(length), "--json"});
+    const json document = json::parse(run(both).out, nullptr, false);
+    ASSERT_TRUE(document.is_object());
+    const json& first = document["jobs"][0];
+    EXPECT_EQ(first["positive"], true) << first["findings"].dump();
+    EXPECT_FALSE(first.contains("verdict"));
+    const json& entered = first["entered_values"];
+    EXPECT_NEAR(entered["base"]["off_mm"].get<double>(), 15, 1e-3);
+    EXPECT_NEAR(entered["base"]["off_deg"].get<double>(), 0, 1e-3);
+    EXPECT_NEAR(entered["base"]["entered"]["shift_mm"][0].get<double>() -
+                    entered["base"]["planned"]["shift_mm"][0].get<double>(),
+                15, 1e-3);
+    EXPECT_EQ(entered["base"]["entered"]["abc_deg"].size(), 3U);
+    ASSERT_EQ(entered["lengths"].size(), 1U);
+    EXPECT_EQ(entered["lengths"][0]["tool"], tool);
+    EXPECT_NEAR(entered["lengths"][0]["entered_mm"].get<double>() - entered["lengths"][0]["planned_mm"].get<double>(),
+                1.5, 1e-3);
+    EXPECT_EQ(program::bytes_in(verdict), kept);
+}
+
+TEST_F(VerifyCommand, EnteredValuesThatCannotBeAreRefused) {
+    copy_project();
+    const std::string kept = program::bytes_in(verdict);
+    const auto expect_refused = [&](const Arguments& values, const std::string& words) {
+        Arguments arguments{"verify", job.string()};
+        arguments.insert(arguments.end(), values.begin(), values.end());
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, exit_use) << ended.err;
+        EXPECT_TRUE(has(ended.err, words)) << ended.err;
+    };
+    expect_refused({"--base", base_of(job, 1000)}, "No verdict was changed.");
+    expect_refused({"--base", base_of(job, 1000)},
+                   "the entered base is 1000.0 mm and 0.00 degrees from the base that ");
+    expect_refused({"--base", "1,2,3"}, "\"1,2,3\" is no X,Y,Z,A,B,C");
+    expect_refused({"--base", "1,2,3,4,5,nan"}, "is no X,Y,Z,A,B,C");
+    expect_refused({"--tool", "1=long"}, "\"1=long\" is no N=LENGTH");
+    expect_refused({"--tool", "99=200"}, "does not use tool 99, but tool");
+    const int tool = json::parse(kept)["time"][0]["tool"];
+    expect_refused({"--tool", std::to_string(tool) + "=900"}, "at most 2 mm are allowed");
+    const Ended project = run({"verify", "p.qch", "--base", base_of(job, 1)});
+    EXPECT_EQ(project.code, exit_use);
+    EXPECT_TRUE(has(project.err, "p.qch is a project, and --base and --tool are of one job")) << project.err;
+    EXPECT_EQ(program::bytes_in(verdict), kept);
 }
 
 TEST_F(VerifyCommand, WrongUseIsNamed) {

@@ -217,8 +217,10 @@ void take_drill(ReadJob& job, std::size_t hole, const std::string& from, const s
     }
     Lines lines = lines_of(job, job.program->entry);
     for (std::string& line : lines) {
-        const std::string asked = ";ASK tool " + from + " ";
-        if (line.starts_with(asked)) line = ";ASK tool " + to + " " + line.substr(asked.size());
+        for (const std::string words : {"\"Put tool ", "\"Measure tool "}) {
+            const std::size_t at = line.find(words + from);
+            if (at != std::string::npos) line.replace(at + words.size(), from.size(), to);
+        }
     }
     put(job, job.program->entry, lines);
 }
@@ -321,7 +323,7 @@ struct Slab {
         setups = std::make_unique<Setups>(cell);
         setups->place({&piece, 1}, {});
         const PlacedSetup& piece_setup = setups->placed(piece);
-        return make_programs(piece, piece_setup, 1, cell, caps_of_slab(piece_setup.setup()), {});
+        return make_programs(piece, piece_setup, {1}, cell, caps_of_slab(piece_setup.setup()), {});
     }
 };
 

@@ -20,14 +20,15 @@ using namespace test_pieces;
 ProvenProgram part_of(std::uint16_t number) {
     ProvenProgram part;
     JobProgram& program = part.input.program;
-    program.entry = "qc_2_p" + std::to_string(number) + ".src";
-    const std::string chunk = "qc_2_00" + std::to_string(number) + ".src";
+    program.entry = "qc_000000_2_p" + std::to_string(number) + ".src";
+    const std::string chunk = "qc_000000_2_00" + std::to_string(number) + ".src";
     program.files = {program.entry, chunk};
     if (number == 2) program.holes = {1};
     program.moves_left_out = {6, "operation 2: link 5"};
     program.chunks = {{chunk, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {1.0 / 3, 0, 0}, {1, 1, 60}}};
     program.part = {number, 2, {}};
-    part.input.texts = {{program.entry, "DEF qc_2_p1( )\r\n;qc_2\r\nqc_2_001( )\r\n"}, {chunk, "DEF qc_2_001( )\r\n"}};
+    part.input.texts = {{program.entry, "DEF qc_000000_2_p1( )\r\n;qc_000000_2\r\nqc_000000_2_001( )\r\n"},
+                        {chunk, "DEF qc_000000_2_001( )\r\n"}};
     part.input.proof.figures = {{"time_s", "time", 77, "s", 0}, {"path_m", "path", 1.5, "m", 1}};
     part.input.proof.time.resize(1);
     part.input.proof.time[0].operation = "roughing";
@@ -47,6 +48,7 @@ class KeptPrograms : public testing::Test {
  protected:
     void SetUp() override {
         own_job = tilting_job(3);
+        own_job.project_id = {};
         own_job.caps = {capped(own_job, 2)};
         own_programs.caps = own_job.caps;
         decide_holes(own_programs.caps, {1}, {}, "the arm does not hold it");
@@ -146,19 +148,36 @@ TEST_F(KeptPrograms, AreTakenForAnotherNumberOfThePiece) {
     const std::optional<PiecePrograms> found = kept(third);
     ASSERT_TRUE(found);
     const ProgramInput& first = found->parts[0].input;
-    EXPECT_EQ(first.program.entry, "qc_3_p1.src");
-    EXPECT_EQ(first.program.files, (std::vector<std::string>{"qc_3_p1.src", "qc_3_001.src"}));
-    EXPECT_EQ(first.program.chunks[0].file, "qc_3_001.src");
+    EXPECT_EQ(first.program.entry, "qc_000000_3_p1.src");
+    EXPECT_EQ(first.program.files, (std::vector<std::string>{"qc_000000_3_p1.src", "qc_000000_3_001.src"}));
+    EXPECT_EQ(first.program.chunks[0].file, "qc_000000_3_001.src");
     EXPECT_EQ(found->parts[0].proof.chunks, first.program.chunks);
-    EXPECT_EQ(first.texts.at("qc_3_p1.src"), "DEF qc_3_p1( )\r\n;qc_2\r\nqc_3_001( )\r\n") << "a comment is no name";
+    EXPECT_EQ(first.texts.at("qc_000000_3_p1.src"), "DEF qc_000000_3_p1( )\r\n;qc_000000_2\r\nqc_000000_3_001( )\r\n")
+        << "a comment is no name";
     third.piece_no = third.piece_count = 12;
     EXPECT_FALSE(kept(third)) << "longer names: the program may be divided elsewhere";
     third.piece_no = 3;
-    own_programs.parts[1].proof.findings.push_back({"gouge", "qc_2_002.src", 3, "too deep"});
+    own_programs.parts[1].proof.findings.push_back({"gouge", "qc_000000_2_002.src", 3, "too deep"});
+    own_programs.parts[1].input.proof = own_programs.parts[1].proof;
+    keep_programs(file(own_job), {own_job, cell_file}, own_programs);
+    const std::optional<PiecePrograms> refused = kept(third);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->parts[1].proof.findings[0].file, "qc_000000_3_002.src");
+    EXPECT_EQ(refused->parts[1].input.proof.findings, refused->parts[1].proof.findings);
+    own_programs.parts[1].proof.findings[0].text = "too deep, behind qc_000000_2_001";
     own_programs.parts[1].input.proof = own_programs.parts[1].proof;
     keep_programs(file(own_job), {own_job, cell_file}, own_programs);
     EXPECT_TRUE(kept(own_job));
-    EXPECT_FALSE(kept(third)) << "a finding names a file";
+    EXPECT_FALSE(kept(third)) << "a sentence names a file";
+}
+
+TEST_F(KeptPrograms, AreTakenForAnotherOrder) {
+    JobInput other = own_job;
+    other.project_id[2] = 0xa5;
+    const std::optional<PiecePrograms> found = kept(other);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->parts[0].input.program.entry, "qc_0000a5_2_p1.src");
+    EXPECT_EQ(found->parts[0].input.texts.count("qc_0000a5_2_001.src"), 1U);
 }
 
 TEST_F(KeptPrograms, AreMadeAgainWhereTheirFileIsMissingOrDamaged) {

@@ -51,7 +51,7 @@ TEST_F(KeptToolpath, IsReadAsItWasAndLeadsToTheSameProgram) {
         EXPECT_EQ(kept->removed[i].down_to.piece_in_field, made.removed[i].down_to.piece_in_field);
     }
     const auto programs = [&](std::optional<FollowedToolpath> followed) {
-        return programs_bytes({job, Sha256{}}, make_programs(piece, setups.placed(piece), 1, cell, {}, {},
+        return programs_bytes({job, Sha256{}}, make_programs(piece, setups.placed(piece), {1}, cell, {}, {},
                                                              FineTools::worthwhile, std::move(followed)));
     };
     EXPECT_EQ(programs(kept), programs({}));
@@ -73,7 +73,7 @@ TEST_F(KeptToolpath, SaysWhyThereIsNone) {
     EXPECT_TRUE(kept->is_machine_refusing);
     EXPECT_EQ(kept->place, none.place);
     const PiecePrograms programs =
-        make_programs(piece, setups.placed(piece), 1, cell, {}, {}, FineTools::worthwhile, kept);
+        make_programs(piece, setups.placed(piece), {1}, cell, {}, {}, FineTools::worthwhile, kept);
     EXPECT_TRUE(programs.parts.empty());
     EXPECT_EQ(programs.none_because, none.none_because);
     EXPECT_TRUE(programs.is_machine_refusing);

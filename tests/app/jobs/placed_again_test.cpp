@@ -22,13 +22,13 @@ TEST(PlacedAgain, WhereTheArmHoldsTheToolpath) {
     ASSERT_TRUE(held.fits());
     PlacedSetup far = held;
     far.choice.setups.front().placement.x += 2500;  // beyond the arm, whatever the margins say
-    const PiecePrograms programs = make_programs(piece, far, 1, cell, {}, {});
+    const PiecePrograms programs = make_programs(piece, far, {1}, cell, {}, {});
     ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
     EXPECT_TRUE(programs.parts.front().proof.is_proven());
     ASSERT_TRUE(programs.place);
     EXPECT_NE(*programs.place, far.setup().placement);
 
-    const PiecePrograms as_known = make_programs(piece, held, 1, cell, {}, {});
+    const PiecePrograms as_known = make_programs(piece, held, {1}, cell, {}, {});
     EXPECT_FALSE(as_known.place);
 
     setups.set_places({{piece.name, *programs.place}});

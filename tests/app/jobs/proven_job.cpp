@@ -67,7 +67,7 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
     input.stock_fit = piece_setup.stock_fit;
     input.machine_reachability = piece_setup.machine_reachability;
     if (caps) input.caps = caps(input.setup);
-    PiecePrograms programs = make_programs(input.piece, piece_setup, 1, input.cell, input.caps, {}, fine);
+    PiecePrograms programs = make_programs(input.piece, piece_setup, {1}, input.cell, input.caps, {}, fine);
     input.caps = programs.caps;
     if (programs.parts.size() != 1) throw std::runtime_error("no single program: " + programs.none_because);
     input.program = programs.parts.front().input;

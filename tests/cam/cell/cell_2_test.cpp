@@ -410,6 +410,17 @@ TEST(CellCheck, WhatIsMeasuredMayBeDispatched) {
     }
 }
 
+TEST(CellVersion2, ExtractionMaySayThatItRuns) {
+    const std::string on = "[extraction]\non = { output = 2 }\n";
+    const std::string running = "running = { input = 9 }\n";
+    const Cell cell = parse_cell(replaced(robot_cell(), on, on + running), "cell.toml");
+    EXPECT_EQ(cell.machine->extraction->running, (Signal{SignalKind::input, "9", 1}));
+    EXPECT_THROW(parse_cell(replaced(robot_cell(), on, "[extraction]\n" + running), "cell.toml"), InputError);
+    EXPECT_THROW(parse_cell(replaced(robot_cell(), on, on + "running = { output = 9 }\n"), "cell.toml"), InputError);
+    const std::string gantry = gantry_cell();
+    EXPECT_THROW(parse_cell(gantry + "\n[extraction]\non = { output = 2 }\n" + running, "cell.toml"), InputError);
+}
+
 TEST(CellCheck, TellsWhatIsNotDescribed) {
     std::string text = robot_cell();
     const std::size_t at = text.find("[extraction]");

@@ -10,6 +10,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "base/parallel.h"
 #include "cam/cell/kuka_angles.h"
@@ -77,7 +78,7 @@ Vec3 tip_of(const ScannedLine& line) {
 
 // All lines of all chunks as they run, without those of the main program.
 std::vector<ScannedLine> chunk_lines(const ProgramPart& part, const PostedChunk& chunk) {
-    return scan(test_krl::text_of(part, chunk.name));
+    return scan(test_krl::resolved(part, test_krl::text_of(part, chunk.name)));
 }
 
 // The tips that a section's runs go to, as a chunk states them: starts, moves, and the start of the next run behind.
@@ -274,13 +275,15 @@ TEST(PostKrl, BeginsAndEndsAsThePageSays) {
     ASSERT_EQ(parts.size(), 1U);
     EXPECT_EQ(parts[0].entry, "qc_7.src");
     EXPECT_EQ(parts[0].files[1].name, "qc_7.dat");
+    EXPECT_EQ(parts[0].files[2].name, "qc_7_cfg.src");
+    EXPECT_EQ(parts[0].files[3].name, "qc_7_cfg.dat");
     const std::vector<ScannedLine> lines = scan(parts[0].files[0].text);
     EXPECT_EQ(lines[0].text, "&ACCESS RVP");
     std::vector<std::string> moves;
     std::vector<std::string> calls;
     for (const ScannedLine& line : lines) {
         if (line.word == "PTP") moves.push_back(line.text);
-        if (line.word.starts_with("qc_7_")) calls.push_back(line.word + ".src");
+        if (line.word.starts_with("qc_7_0")) calls.push_back(line.word + ".src");
     }
     EXPECT_EQ(moves.front(), "PTP {A1 0.000,A2 -90.000,A3 90.000,A4 0.000,A5 90.000,A6 0.000,E1 0.000}");
     EXPECT_EQ(moves.back(), moves.front());
@@ -323,8 +326,70 @@ TEST(PostKrl, CallsWhatTheCellFileNames) {
     EXPECT_NE(main.find("take_tool(4)\r\n"), std::string::npos);
     EXPECT_NE(main.find("spindle_off( )\r\n"), std::string::npos);
     EXPECT_EQ(main.find("HALT"), std::string::npos);
-    EXPECT_NE(parts[0].files[2].text.find("spindle_speed(9000.0)\r\nspindle_on( )\r\nspindle_wait( )\r\n"),
+    EXPECT_NE(parts[0].files[4].text.find("spindle_speed(9000.0)\r\nspindle_on( )\r\nspindle_wait( )\r\n"),
               std::string::npos);
+}
+
+// Base, tools and loads stand in the module and nowhere else.
+TEST(PostKrl, FramesStandOnce) {
+    for (const Job& job : jobs()) {
+        for (const ProgramPart& part : post_program(program_of(job), job.cell, {7, "3f09a2"})) {
+            std::set<std::string> stated;
+            for (const ScannedLine& line : scan(test_krl::text_of(part, "qc_3f09a2_7_cfg.dat"))) {
+                if (line.word != "DECL") continue;
+                const std::size_t begin = line.text.find("qc_");
+                EXPECT_TRUE(stated.insert(line.text.substr(begin, line.text.find(' ', begin) - begin)).second);
+            }
+            EXPECT_TRUE(stated.contains("qc_3f09a2_7_base"));
+            for (const ProgramText& file : part.files) {
+                if (file.name.ends_with("_cfg.dat")) continue;
+                for (const ScannedLine& line : scan(file.text)) {
+                    if (line.word != "$TOOL" && line.word != "$LOAD" && line.word != "$BASE") continue;
+                    EXPECT_TRUE(line.values.empty()) << line.text;
+                    const std::size_t begin = line.text.find("qc_");
+                    ASSERT_NE(begin, std::string::npos) << line.text;
+                    EXPECT_TRUE(stated.contains(line.text.substr(begin, line.text.find(')', begin) - begin)));
+                }
+            }
+        }
+    }
+}
+
+TEST(PostKrl, AsksInDialogsThatTheControllerShows) {
+    Job job = jobs()[0];
+    job.cell.machine->tools[0].name = std::string(50, 'n') + " \"40\" \xC3\xA4";
+    job.cell.machine->tools[0].number = 65'535;
+    const ProgramPart part = post_program(program_of(job), job.cell, {7}).at(0);
+    std::size_t asked = 0;
+    for (const ScannedLine& line : scan(part.files[0].text)) {
+        if (line.word != "qc_7_ask") continue;
+        ++asked;
+        EXPECT_TRUE(line.text.ends_with("\")"));
+        EXPECT_LE(line.text.size(), std::string("qc_7_ask(\"\")").size() + 80);
+        EXPECT_EQ(std::count(line.text.begin(), line.text.end(), '"'), 2);
+    }
+    EXPECT_GE(asked, 2U);
+    EXPECT_NE(part.files[0].text.find("mm from nose to tip, stick-out"), std::string::npos);
+}
+
+// From where a chunk has waited for them to its end.
+TEST(PostKrl, WatchesWhatItHasWaitedFor) {
+    Job job = jobs()[0];
+    job.cell.machine->extraction->running = Signal{SignalKind::input, "9", 1};
+    const ProgramPart part = post_program(program_of(job), job.cell, {7}).at(0);
+    for (const PostedChunk& chunk : part.chunks) {
+        std::vector<std::string> order;
+        for (const ScannedLine& line : chunk_lines(part, chunk)) {
+            if (line.word == "INTERRUPT" || line.word == "WAIT") order.push_back(line.text);
+            if (line.word == "PTP" && (order.empty() || order.back() != "moves")) order.emplace_back("moves");
+        }
+        EXPECT_EQ(order,
+                  (std::vector<std::string>{"INTERRUPT DECL 21 WHEN $STOPMESS == TRUE DO qc_7_stop( )",
+                                            "INTERRUPT ON 21", "WAIT FOR $IN[9]", "WAIT FOR $IN[1]",
+                                            "INTERRUPT DECL 22 WHEN $IN[1] == FALSE DO qc_7_fall( )", "INTERRUPT ON 22",
+                                            "INTERRUPT DECL 23 WHEN $IN[9] == FALSE DO qc_7_fall( )", "INTERRUPT ON 23",
+                                            "moves", "WAIT SEC 0", "INTERRUPT OFF 22", "INTERRUPT OFF 23"}));
+    }
 }
 
 TEST(PostKrl, SpeedsAreThoseOfTheMoves) {
@@ -375,7 +440,7 @@ TEST(PostKrl, RoundsNoCornerThatIsAStop) {
              {{30, 2, 3}, MoveKind::cut, 2, 100}};
     const auto lines = [&] {
         std::vector<std::string> found;
-        for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[2].text)) {
+        for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[4].text)) {
             if (line.word == "LIN" && line.names.size() == 3) found.push_back(line.text.substr(4));
         }
         found.resize(4);
@@ -397,7 +462,7 @@ TEST(PostKrl, StatesHowFarEachCornerIsRounded) {
                                            {{30, 2, 3}, MoveKind::cut, 0.3, 100}, {{40, 2, 3}, MoveKind::cut, 5, 100},
                                            {{50, 2, 3}, MoveKind::cut, 0, 100}};
     std::vector<std::string> found;
-    for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[2].text)) {
+    for (const ScannedLine& line : scan(post_program(program, jobs()[0].cell, {7})[0].files[4].text)) {
         if (line.text.starts_with("$APO.CDIS")) found.push_back(line.text);
         if (line.text.ends_with("C_DIS")) found.emplace_back("rounded");
     }
@@ -442,20 +507,23 @@ TEST(PostKrl, ForAnotherNumberOfThePieceOtherNamesAreAllThatChanges) {
     for (const Job& job : jobs()) {
         const Program program = program_of(job);
         const std::vector<ProgramPart> first = post_program(program, job.cell, {7});
-        const std::vector<ProgramPart> second = post_program(program, job.cell, {8});
+        const ProgramName other{8};
+        const std::vector<ProgramPart> second = post_program(program, job.cell, other);
         ASSERT_EQ(first.size(), second.size());
         for (std::size_t p = 0; p < first.size(); ++p) {
-            EXPECT_EQ(renumbered_name(first[p].entry, 7, 8), second[p].entry);
+            EXPECT_EQ(renamed_file(first[p].entry, {7}, other), second[p].entry);
             ASSERT_EQ(first[p].files.size(), second[p].files.size());
             for (std::size_t i = 0; i < first[p].files.size(); ++i) {
                 EXPECT_NE(first[p].files[i].text, second[p].files[i].text);
-                EXPECT_EQ(renumbered_name(first[p].files[i].name, 7, 8), second[p].files[i].name);
-                EXPECT_EQ(renumbered_text(first[p].files[i].text, 7, 8), second[p].files[i].text);
+                EXPECT_EQ(renamed_file(first[p].files[i].name, {7}, other), second[p].files[i].name);
+                EXPECT_EQ(renamed_text(first[p].files[i].text, {7}, other), second[p].files[i].text);
             }
         }
     }
-    EXPECT_EQ(renumbered_name("qc_71.src", 7, 8), "qc_71.src");
-    EXPECT_EQ(renumbered_text("qc_71_001( )\r\nqc_7x( )\r\n;qc_7", 7, 8), "qc_71_001( )\r\nqc_7x( )\r\n;qc_7");
+    EXPECT_EQ(renamed_file("qc_71.src", {7}, {8}), "qc_71.src");
+    EXPECT_EQ(renamed_text("qc_71_001( )\r\nqc_7x( )\r\n;qc_7", {7}, {8}), "qc_71_001( )\r\nqc_7x( )\r\n;qc_7");
+    EXPECT_EQ(renamed_text("qc_7_ask(\"Put tool 1 (qc_7) in\")\r\n;program qc_7", {7}, {8}),
+              "qc_8_ask(\"Put tool 1 (qc_7) in\")\r\n;program qc_8");
 }
 
 }  // namespace

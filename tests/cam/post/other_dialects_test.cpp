@@ -195,8 +195,8 @@ TEST(PostOtherDialects, APieceOfAnotherNumberHasOtherNames) {
         const std::vector<ProgramPart> seven = post_program(program_of(*job), job->cell, {7});
         const std::vector<ProgramPart> eight = post_program(program_of(*job), job->cell, {8});
         for (std::size_t i = 0; i < seven[0].files.size(); ++i) {
-            EXPECT_EQ(renumbered_name(seven[0].files[i].name, 7, 8), eight[0].files[i].name);
-            EXPECT_EQ(renumbered_text(seven[0].files[i].text, 7, 8), eight[0].files[i].text);
+            EXPECT_EQ(renamed_file(seven[0].files[i].name, {7}, {8}), eight[0].files[i].name);
+            EXPECT_EQ(renamed_text(seven[0].files[i].text, {7}, {8}), eight[0].files[i].text);
         }
     }
 }

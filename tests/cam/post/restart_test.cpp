@@ -57,11 +57,13 @@ TEST(PostRestart, GoesOnAsTheProgramDoesAfterAQuestionAndWithItsTool) {
                                      : is_ngc ? "o<" + chunks[0].name + "> call"
                                               : chunks[0].name + "( )";
             EXPECT_EQ(text.substr(place_of(text, call)), of_whole.substr(place_of(of_whole, call))) << cell;
-            const std::size_t asked = place_of(text, "ASK the chunks before " + chunks[0].name + " have ended");
-            const std::size_t tool = place_of(text, "ASK tool " + std::to_string(chunks[0].tool_number) + " ");
+            const bool is_krl = job.cell.machine->program.dialect == Dialect::krl;
+            const std::string of_tool = is_krl ? "\"Put tool " : "ASK tool ";
+            const std::size_t asked = place_of(text, "the chunks before " + chunks[0].name + " have ended");
+            const std::size_t tool = place_of(text, of_tool + std::to_string(chunks[0].tool_number) + " ");
             EXPECT_LT(asked, tool) << cell;
             EXPECT_LT(tool, place_of(text, call)) << cell;
-            EXPECT_EQ(text.find("ASK tool"), tool) << "no tool before that of the chunk";
+            EXPECT_EQ(text.find(of_tool), tool) << "no tool before that of the chunk";
         }
     }
 }

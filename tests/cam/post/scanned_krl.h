@@ -85,4 +85,27 @@ inline const std::string& text_of(const ProgramPart& part, const std::string& na
     return none;
 }
 
+// A text of the part with the values in place of the names that its configuration module states.
+inline std::string resolved(const ProgramPart& part, std::string text) {
+    std::string data;
+    for (const ProgramText& file : part.files) {
+        if (file.name.ends_with("_cfg.dat")) data = file.text;
+    }
+    for (const ScannedLine& line : scan(data)) {
+        if (line.word != "DECL") continue;
+        const std::size_t begin = line.text.find(' ', 12) + 1;  // behind DECL GLOBAL FRAME or LOAD
+        const std::size_t end = line.text.find(" = ");
+        const std::string name = line.text.substr(begin, end - begin);
+        for (const std::string behind : {"\r\n", ")"}) {
+            for (const std::string before : {" = ", ","}) {
+                const std::string old = before + name + behind;
+                for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old)) {
+                    text.replace(at, old.size(), before + line.text.substr(end + 3) + behind);
+                }
+            }
+        }
+    }
+    return text;
+}
+
 }  // namespace qchopper::test_krl

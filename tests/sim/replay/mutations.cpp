@@ -274,7 +274,9 @@ void add_frames(std::vector<Mutation>& all) {
     all.push_back(everywhere("load_centre_at_the_tip", each_component("$load", {"Z"}, plus(350))));
     all.push_back(everywhere("load_without_spindle", each_component("$load", {"M"}, plus(-15))));
     all.push_back(everywhere("load_inertia_times_10", each("$load", [times](std::string& line) {
-                                 std::string inertia = line.substr(line.find(",J {"));
+                                 const std::size_t at = line.find(",J {");
+                                 if (at == std::string::npos) return false;  // it is named
+                                 std::string inertia = line.substr(at);
                                  line.resize(line.size() - inertia.size());
                                  bool is_changed = false;
                                  for (const char* component : {"X", "Y", "Z"})
@@ -366,6 +368,66 @@ void add_signals(std::vector<Mutation>& all) {
     }));
 }
 
+// Every line with these words, in lower case, has others in their place; or is left out.
+Change in_lines_with(const std::string& words, const std::string& what, const std::string& by) {
+    return [words, what, by](Lines& lines) {
+        bool is_changed = false;
+        for (std::string& line : lines) {
+            if (lower(line).find(words) != std::string::npos) is_changed |= replace_first(line, 0, what, by);
+        }
+        return is_changed;
+    };
+}
+
+Change without_lines_with(const std::string& words) {
+    return [words](Lines& lines) {
+        return std::erase_if(lines,
+                             [&](const std::string& line) { return lower(line).find(words) != std::string::npos; }) > 0;
+    };
+}
+
+Mutation without_files(const std::string& name, const std::string& ending) {
+    return of_files(name, [ending](const ProgramFiles& files) {
+        ProgramFiles changed = files;
+        const bool is_changed =
+            std::erase_if(changed, [&](const ProgramFile& file) { return lower(file.name).ends_with(ending); }) > 0;
+        return is_changed ? std::optional(changed) : std::nullopt;
+    });
+}
+
+// Of programs with a configuration module.
+void add_module(std::vector<Mutation>& all) {
+    all.push_back(in_main_lines("dialogs_lost", without_lines_with("_ask(")));
+    all.push_back(
+        in_main_lines("tool_length_wrong_in_the_dialog", in_lines_with("\"measure tool", "00 mm from", "10 mm from")));
+    all.push_back(in_main_lines("another_tool_in_the_dialog", in_lines_with("\"put tool", "tool ", "tool 9")));
+    all.push_back(in_main_lines("stops_not_watched", without("interrupt on 21")));
+    all.push_back(in_one_chunk("stops_not_watched_in_a_chunk", without("interrupt on 21")));
+    all.push_back(in_one_chunk("speed_not_watched", without("interrupt on 22")));
+    all.push_back(in_one_chunk("another_input_watched", in_lines_with("interrupt decl 22", "$IN[1]", "$IN[2]")));
+    all.push_back(in_one_chunk("speed_watched_the_wrong_way", in_lines_with("interrupt decl 22", "FALSE", "TRUE")));
+    all.push_back(
+        in_one_chunk("another_routine_for_the_speed", in_lines_with("interrupt decl 22", "_fall(", "_stop(")));
+    all.push_back(in_last_chunk("speed_not_watched_from_the_middle_on", insert("INTERRUPT OFF 22")));
+    all.push_back(in_one_chunk("speed_not_watched_during_the_last_moves", without("wait sec")));
+    all.push_back(in_module("spindle_not_switched_off_by_routines", without("$out[1]")));
+    all.push_back(in_module("extraction_not_switched_off_by_one_routine", lose("$out[2]", false)));
+    all.push_back(in_module("routine_switches_on", in_lines_with("$out[1]", "FALSE", "TRUE")));
+    all.push_back(in_module("arm_not_stopped", without("brake")));
+    all.push_back(in_module("tool_not_retracted", without("lin_rel")));
+    all.push_back(in_module("tool_retracted_aside", in_lines_with("lin_rel", "{Z", "{X")));
+    all.push_back(in_module("tool_driven_into_the_foam", in_lines_with("lin_rel", "-", "")));
+    all.push_back(in_module("program_goes_on_after_a_fall", without("loop")));
+    all.push_back(in_module("dialog_not_waited_for", without("while ")));
+    all.push_back(in_module("no_stop_without_a_dialog", lose("halt", true)));
+    all.push_back(in_module("base_lost", without_lines_with("_base =")));
+    all.push_back(in_module("data_not_public", in_lines_with("defdat", " PUBLIC", "")));
+    all.push_back(without_files("module_lost", "_cfg.src"));
+    all.push_back(without_files("data_of_the_module_lost", "_cfg.dat"));
+    all.push_back(everywhere("table_at_full_speed", each_value("$vel_extax", [](double) { return 100; })));
+    all.push_back(in_one_chunk("speed_of_the_table_not_stated", without("$vel_extax")));
+}
+
 void add_chunks(std::vector<Mutation>& all) {
     all.push_back(in_main("chunk_lost", lose_chunk));
     all.push_back(in_main("first_roughing_lost", lose_operation("roughing", false)));
@@ -438,6 +500,7 @@ std::vector<Mutation> all_mutations() {
     add_frames(all);
     add_speeds(all);
     add_signals(all);
+    add_module(all);
     add_chunks(all);
     add_text(all);
     return all;

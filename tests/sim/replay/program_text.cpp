@@ -8,6 +8,28 @@
 #include "base/text.h"
 
 namespace qchopper::program_text {
+namespace {
+
+constexpr const char* module_ending = "_cfg";  // of the stem of a configuration module
+
+bool is_data_of_module(const ProgramFile& file) {
+    return lower(file.name).ends_with(std::string(module_ending) + ".dat");
+}
+
+// Whether a line states what the word is for: it begins with it, or a module states the frame or load.
+bool states(const std::string& line, const std::string& word) {
+    if (begins(line, word)) return true;
+    if (!begins(line, "decl global ")) return false;
+    const std::string name = lower(line.substr(0, line.find(" = ")));
+    const auto has_part = [&](const char* part) {
+        const std::size_t at = name.rfind(part);
+        return at != std::string::npos && name.find('_', at + 1) == std::string::npos;
+    };
+    return (word == "$tool" && has_part("_t")) || (word == "$base" && has_part("_base")) ||
+           (word == "$load" && has_part("_l"));
+}
+
+}  // namespace
 
 Lines lines_of(const std::string& text) {
     Lines lines;
@@ -69,7 +91,10 @@ std::string called_stem(const ProgramFiles& files, const std::string& line) {
 }
 
 std::size_t next_chunk(const ProgramFiles& files, std::size_t from) {
-    while (from < files.size() && (!is_source(files[from]) || is_main(files[from]))) ++from;
+    const auto is_chunk = [](const ProgramFile& file) {
+        return is_source(file) && !is_main(file) && !stem_of(file).ends_with(module_ending);
+    };
+    while (from < files.size() && !is_chunk(files[from])) ++from;
     return from;
 }
 
@@ -99,7 +124,7 @@ Mutation everywhere(const std::string& name, const Change& change) {
                 ProgramFiles changed = files;
                 bool is_changed = false;
                 for (ProgramFile& file : changed) {
-                    if (!is_source(file)) continue;
+                    if (!is_source(file) && !is_data_of_module(file)) continue;
                     Lines lines = lines_of(file.text);
                     if (change(lines)) is_changed = true;
                     file.text = text_of(lines);
@@ -126,7 +151,7 @@ Change each(const std::string& word, const std::function<bool(std::string&)>& ch
     return [word, change](Lines& lines) {
         bool is_changed = false;
         for (std::string& line : lines) {
-            if (begins(line, word) && change(line)) is_changed = true;
+            if (states(line, word) && change(line)) is_changed = true;
         }
         return is_changed;
     };
@@ -229,6 +254,20 @@ Change lose(const std::string& word, bool is_last) {
         lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(is_last ? places.back() : places.front()));
         return true;
     };
+}
+
+Mutation in_module(const std::string& name, const Change& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                ProgramFiles changed = files;
+                bool is_changed = false;
+                for (ProgramFile& file : changed) {
+                    if (!stem_of(file).ends_with(module_ending)) continue;
+                    Lines lines = lines_of(file.text);
+                    if (change(lines)) is_changed = true;
+                    file.text = text_of(lines);
+                }
+                return is_changed ? std::optional(changed) : std::nullopt;
+            }};
 }
 
 Change insert(const std::string& line) {

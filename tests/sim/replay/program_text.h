@@ -38,7 +38,8 @@ std::pair<std::size_t, std::size_t> number_at(const std::string& line, const std
 double component_of(const std::string& line, const std::string& component);  // 0: it is not there
 bool change_number(std::string& line, const std::string& component, const std::function<double(double)>& f);
 
-// Of each line that begins with the word: the line, its components, the value behind the equals sign.
+// Of each line that begins with the word, or states the $TOOL, $BASE or $LOAD of that name in a module: the line, its
+// components, the value behind the equals sign.
 Change each(const std::string& word, const std::function<bool(std::string&)>& change);
 Change each_component(const std::string& word, const std::vector<std::string>& components,
                       const std::function<double(double)>& f);
@@ -54,6 +55,8 @@ Mutation everywhere(const std::string& name, const Change& change);
 Mutation in_one_chunk(const std::string& name, const Change& change);
 Mutation in_last_chunk(const std::string& name, const Change& change);
 Mutation in_main_lines(const std::string& name, const Change& change);
+// Of the configuration module of KRL, source and data.
+Mutation in_module(const std::string& name, const Change& change);
 // With the places of the calls of chunks in the main program.
 Mutation in_main(const std::string& name,
                  const std::function<bool(ProgramFiles&, Lines&, std::vector<std::size_t>)>& change);

@@ -100,6 +100,8 @@ class Replay:
             if line.startswith(";ASK"):
                 asked = re.match(r";ASK tool (\d+) ", line)
                 self.asked = int(asked[1]) if asked else self.asked
+            elif re.match(r'\w+_ask\("Put tool \d+ ', line):
+                self.asked = int(re.search(r"\d+", line.partition("tool ")[2])[0])
             elif called and called[1].lower() == self.change_call:
                 self.asked = int(called[2])
             elif called and called[1].lower() in sources:
