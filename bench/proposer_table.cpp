@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -32,6 +34,7 @@
 #include "segment/regions/region_planes.h"
 #include "segment/search/beam.h"
 #include "segment/search/search.h"
+#include "segment/simplify/simplify.h"
 
 namespace {
 
@@ -39,16 +42,17 @@ using namespace qchopper;
 using namespace qchopper::bench;
 
 constexpr const char* usage =
-    R"(bench_proposer_table [--out FOLDER] [--data DIR] [--small] [--print] [MODEL...]
+    R"(bench_proposer_table [--out FOLDER] [--data DIR] [--faces N] [--small] [--print] [MODEL...]
   --out    where the runs are kept, one file each (proposer-table); those that are there are not made again
   --data   where the scans lie
+  --faces  of a sample, and to how many a scan with more is simplified (20000)
   --small  the sample vertebra with 8,000 faces, to check that it runs
   --print  prints what is there and makes no run
   MODEL    of bench/table_models.h, or held out: femur-2, skull-2, vertebra-2, diplodocus; all by default
 )";
 
 constexpr double fragment_share = 1e-5;  // of the scan's volume, as the program has it
-constexpr std::size_t sample_faces = 60'000;
+constexpr std::size_t default_faces = 20'000;
 constexpr std::array presets{"thesis", "carve"};
 constexpr std::array<std::size_t, 4> read_after{1, 2, 4, 8};
 
@@ -56,6 +60,7 @@ struct Choice {
     std::filesystem::path out = "proposer-table";
     std::filesystem::path data = default_data();
     std::vector<std::string> models;
+    std::size_t faces = default_faces;
     bool is_small = false;
     bool only_prints = false;
 };
@@ -192,12 +197,13 @@ std::vector<std::string> proposers() {
 }
 
 std::optional<TriangleMesh> scan_of(const Choice& choice, const std::string& name) {
-    const std::size_t faces = choice.is_small ? 8'000 : sample_faces;
+    const std::size_t faces = choice.is_small ? 8'000 : choice.faces;
     const bool is_held_out = std::ranges::find(held_out(), name, &TableModel::name) != held_out().end();
     const std::vector<TableModel>& list = is_held_out ? held_out() : table_models();
     const auto model = std::ranges::find(list, name, &TableModel::name);
     if (model == list.end()) return std::nullopt;
     std::optional<TriangleMesh> mesh = mesh_of(*model, choice.data, faces);
+    if (mesh && mesh->triangles.size() > faces) simplify(*mesh, {std::nullopt, faces, true});
     if (mesh && is_held_out) stretch_and_turn(*mesh);
     return mesh;
 }
@@ -225,6 +231,13 @@ double median(std::vector<double> values) {
     return n == 0 ? std::nan("") : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+// Where a search ends at no cost at all, the other one is as good or infinitely worse.
+double ratio(double value, double to) {
+    constexpr double none = 1e-12;
+    if (to > none) return value / to;
+    return value > none ? std::numeric_limits<double>::infinity() : 1;
+}
+
 // Of one preset: medians, over the models that have all runs, of the ratio to the run without proposed planes.
 void print_table(const Choice& choice, const std::vector<std::string>& models, const char* preset_name,
                  const std::string& title) {
@@ -247,7 +260,7 @@ void print_table(const Choice& choice, const std::vector<std::string>& models, c
             const std::optional<Run> run = read_run(file_of(choice, model, preset_name, proposer));
             if (!none || !run || run->states.empty() || run->states.size() != none->states.size()) continue;
             for (std::size_t i = 0; i < run->states.size(); ++i) {
-                costs[run->states[i].cuts].push_back(run->states[i].cost / none->states[i].cost);
+                costs[run->states[i].cuts].push_back(ratio(run->states[i].cost, none->states[i].cost));
             }
             const State& last = run->states.back();
             const State& before = none->states.back();
@@ -277,6 +290,8 @@ bool parse(int argc, char** argv, Choice& choice) {
             choice.only_prints = true;
         } else if ((option == "--out" || option == "--data") && i + 1 < argc) {
             (option == "--out" ? choice.out : choice.data) = argv[++i];
+        } else if (option == "--faces" && i + 1 < argc) {
+            choice.faces = std::max(1'000UL, std::strtoul(argv[++i], nullptr, 10));
         } else if (option.starts_with("--")) {
             return false;
         } else {
