@@ -57,8 +57,7 @@ void describe_chunk(const Program& program, const CellMachine& machine, const Ru
     text.comment("direction " + std::to_string(operation.orientation + 1));
     text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
     text.comment(std::string("operation ") + to_word(operation.kind));
-    text.comment("moves of runs: " + std::to_string(moves));
-    text.comment("at their speeds: " + fixed(seconds, 0) + " s");
+    text.comment("moves of runs: " + std::to_string(moves) + ", " + fixed(seconds, 0) + " s at their speeds");
     text.comment("box of the tip in mm: " + box_words(box));
     text.comment(std::string("start from home: ") +
                  (starts_from_home(program, range) ? "free" : "not free, see the chunks before"));

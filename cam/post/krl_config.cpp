@@ -28,14 +28,21 @@ void switch_off(const CellMachine& machine, KrlText& text) {
     stop_extraction(machine, text);
 }
 
-void add_stopped(const CellMachine& machine, const KrlNames& names, KrlText& text) {
-    text.line("GLOBAL DEF " + names.stopped() + "( )");
-    text.comment("the program was stopped");
-    switch_off(machine, text);
+// Nothing follows: a program that went on would carve with a spindle that stands.
+void add_stop_for_good(KrlText& text) {
+    text.line("LOOP");
+    text.line("HALT");
+    text.line("ENDLOOP");
     text.line("END");
 }
 
-// Behind the endless loop nothing follows: a program that went on would carve with a spindle that stands.
+void add_stopped(const CellMachine& machine, const KrlNames& names, KrlText& text) {
+    text.line("GLOBAL DEF " + names.stopped() + "( )");
+    text.comment("the program was stopped: reset it, and restart from its chunk");
+    switch_off(machine, text);
+    add_stop_for_good(text);
+}
+
 void add_fallen(const CellMachine& machine, const KrlNames& names, KrlText& text) {
     const bool is_x = machine.spindle.tool_axis == ToolAxis::x;
     text.line("GLOBAL DEF " + names.fallen() + "( )");
@@ -43,10 +50,7 @@ void add_fallen(const CellMachine& machine, const KrlNames& names, KrlText& text
     text.line("BRAKE");
     switch_off(machine, text);
     text.line(std::string("LIN_REL {") + (is_x ? "X " : "Z ") + written_mm("retract", -retract_mm) + "} #TOOL");
-    text.line("LOOP");
-    text.line("HALT");
-    text.line("ENDLOOP");
-    text.line("END");
+    add_stop_for_good(text);
 }
 
 void add_messages(const KrlNames& names, KrlText& text) {

@@ -41,10 +41,10 @@ void ask(const KrlNames& names, const std::vector<std::string>& sentences, KrlTe
 // A message that is not waited for. Precondition: at most 80 characters.
 void say(const KrlNames& names, const std::string& sentence, KrlText& text);
 
-// From here to unwatch() a stop of the program switches spindle and extraction off.
+// From here to the end of the file a stop of the program switches spindle and extraction off and ends the program.
 void watch_stops(const KrlNames& names, KrlText& text);
-// And a spindle or an extraction that is no longer running besides retracts the tool and ends the program, where the
-// cell file names an input for it.
+// From here to unwatch_signals() a spindle or an extraction that is no longer running does so too and retracts the
+// tool, where the cell file names an input for it.
 void watch_signals(const CellMachine& machine, const KrlNames& names, KrlText& text);
 void unwatch_signals(const CellMachine& machine, KrlText& text);
 

@@ -172,15 +172,16 @@ class ModuleReader {
             }
             line.need_end();
         }
-        if (routine.kind == KrlRoutineKind::fallen) {
-            if (at < body.lines.size()) read_retract(line_at(body.lines[at]), body.lines[at], routine), ++at;
-            for (const char* words : {"loop", "halt", "endloop"}) {
-                if (!is_next(words)) {
-                    line_at(at < body.lines.size() ? body.lines[at] : body.end)
-                        .refuse("the program must stop here for good: LOOP, HALT, ENDLOOP");
-                }
-                ++at;
+        if (routine.kind == KrlRoutineKind::fallen && at < body.lines.size()) {
+            read_retract(line_at(body.lines[at]), body.lines[at], routine);
+            ++at;
+        }
+        for (const char* words : {"loop", "halt", "endloop"}) {
+            if (!is_next(words)) {
+                line_at(at < body.lines.size() ? body.lines[at] : body.end)
+                    .refuse("the program must stop here for good: LOOP, HALT, ENDLOOP");
             }
+            ++at;
         }
         if (at < body.lines.size()) line_at(body.lines[at]).refuse("this is no line of a routine");
         return routine;

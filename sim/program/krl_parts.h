@@ -74,7 +74,7 @@ ProgramLoad read_load(ProgramLine& line);
 // krl_config.cpp: the configuration module of a program.
 
 enum class KrlRoutineKind : std::uint8_t {
-    stopped,  // switches off
+    stopped,  // switches off, and never returns
     fallen,   // stops the arm, switches off, retracts the tool and never returns
     ask,      // a dialog with its argument, which is waited for
     say       // a message

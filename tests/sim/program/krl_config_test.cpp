@@ -62,6 +62,9 @@ const std::string routines = R"(END
 GLOBAL DEF m_stop( )
 $OUT[1] = FALSE
 $OUT[2] = FALSE
+LOOP
+HALT
+ENDLOOP
 END
 GLOBAL DEF m_fall( )
 BRAKE
@@ -189,7 +192,8 @@ TEST(KrlConfig, EveryFaultIsRefusedWithItsPlace) {
         {0, "m_ask(\"Is the block fixed?\")", "m_ask(\"Is the block fixed?", "m.src, line"},
         {0, "m_ask(\"Is the block fixed?\")", "m_ask(1)", "m.src, line"},
         {0, "m_ask(\"Is", "m_tell(\"Is", "m.src, line"},
-        {2, "$OUT[1] = FALSE\r\n$OUT[2] = FALSE\r\nEND", "$OUT[2] = FALSE\r\nEND", "\"m_stop\" does not switch off 1"},
+        {2, "$OUT[1] = FALSE\r\n$OUT[2] = FALSE\r\nLOOP", "$OUT[2] = FALSE\r\nLOOP",
+         "\"m_stop\" does not switch off 1"},
         {2, "BRAKE\r\n$OUT[1] = FALSE\r\n", "BRAKE\r\n", "\"m_fall\" does not switch off 1"},
         {2, "BRAKE\r\n$OUT[1] = FALSE", "BRAKE\r\n$OUT[1] = TRUE", "a routine switches off"},
         {2, "BRAKE\r\n", "", "m_cfg.src, line"},

@@ -418,6 +418,7 @@ void add_module(std::vector<Mutation>& all) {
     all.push_back(in_module("tool_retracted_aside", in_lines_with("lin_rel", "{Z", "{X")));
     all.push_back(in_module("tool_driven_into_the_foam", in_lines_with("lin_rel", "-", "")));
     all.push_back(in_module("program_goes_on_after_a_fall", without("loop")));
+    all.push_back(in_module("program_goes_on_after_a_stop", lose("endloop", false)));
     all.push_back(in_module("dialog_not_waited_for", without("while ")));
     all.push_back(in_module("no_stop_without_a_dialog", lose("halt", true)));
     all.push_back(in_module("base_lost", without_lines_with("_base =")));
