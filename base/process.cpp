@@ -2,6 +2,7 @@
 
 #include "base/process.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <ctime>
 #include <fstream>
+#include <limits>
 
 namespace qchopper {
 
@@ -42,6 +44,14 @@ std::size_t peak_memory() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int largest = 32 << 20;  // the most that glibc takes
+    ::mallopt(M_MMAP_THRESHOLD, largest);
+    ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
 }
 
 double cpu_seconds() {

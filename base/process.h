@@ -19,6 +19,11 @@ bool has_process_ended(long process);
 // Resident memory of this process at its peak so far, in bytes.
 std::size_t peak_memory();
 
+// From now on memory that is freed is kept for what is allocated next, and not given back to the system. For a program
+// that takes and frees large blocks again and again: each time the system would clear their pages anew. Needs glibc,
+// and does nothing without it. No thread may allocate meanwhile.
+void keep_freed_memory();
+
 // CPU time of this process so far, in seconds.
 double cpu_seconds();
 

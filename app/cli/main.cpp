@@ -17,6 +17,7 @@
 #include "app/report/command_line_text.h"
 #include "app/report/notices.h"
 #include "base/parallel.h"
+#include "base/process.h"
 #include "devices/wire/device_error.h"
 
 namespace qchopper {
@@ -116,5 +117,8 @@ int run_program(int argc, const char* const* argv) {
 }  // namespace qchopper
 
 int main(int argc, char** argv) {
+    // Pictures, maps and pieces are large blocks of short life: a third of the time of a small scan's `prepare` was the
+    // system's.
+    qchopper::keep_freed_memory();
     return qchopper::run_program(argc, argv);
 }

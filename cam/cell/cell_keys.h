@@ -79,10 +79,10 @@ inline constexpr TableKeys extraction{"extraction", {"on", "off", "running"}};
 inline constexpr TableKeys extraction_on{"extraction.on", {"output", "call"}};
 inline constexpr TableKeys extraction_off{"extraction.off", {"output", "call"}};
 inline constexpr TableKeys extraction_running{"extraction.running", {"input", "call"}};
-inline constexpr TableKeys tool{
-    "tool",
-    {"diameter", "corner_radius", "tip_angle_deg", "flute_length", "stick_out", "holder", "feed_mm_per_s", "rpm",
-     "mass_kg", "removal_mm3_per_s", "source", "sources", "number", "name", "shape", "length_measured"}};
+inline constexpr TableKeys tool{"tool",
+                                {"diameter", "corner_radius", "tip_angle_deg", "flute_length", "stick_out", "holder",
+                                 "feed_mm_per_s", "rpm", "mass_kg", "removal_mm3_per_s", "source", "sources", "number",
+                                 "name", "shape", "length_measured", "centre_cutting"}};
 inline constexpr TableKeys stock{"stock",
                                  {"size", "kerf", "bending_strength", "source", "sources", "name", "material", "sawn"}};
 inline constexpr TableKeys obstacle{"obstacle", {"min", "max", "source", "sources", "name"}};

@@ -40,6 +40,7 @@ struct CuttingTool {
     double mass_kg = 0;  // with its holder
     double removal_mm3_per_s = 0;
     bool is_length_measured = false;
+    bool is_centre_cutting = true;  // false, of flat and bull tools only: it may not go straight down into foam
     bool operator==(const CuttingTool&) const = default;
 };
 

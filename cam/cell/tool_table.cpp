@@ -106,6 +106,9 @@ CuttingTool read_tool_2(const TomlReader& reader) {
     tool.mass_kg = reader.number("mass_kg", smallest, 1'000);
     read_rate(reader, tool);
     tool.is_length_measured = reader.boolean("length_measured");
+    const bool may_lack_centre = tool.shape == ToolShape::flat || tool.shape == ToolShape::bull;
+    refuse_unless(reader, "centre_cutting", may_lack_centre, tool.shape);
+    if (reader.has("centre_cutting")) tool.is_centre_cutting = reader.boolean("centre_cutting");
     return tool;
 }
 

@@ -243,7 +243,8 @@ void ToolpathLinker::hop_to(Vec3 to, double height) {
 void ToolpathLinker::ramp(const Pass& pass, double top) {
     const double down = top - pass.points[0].tip.z;
     const double whole = down / ramp_slope;
-    std::vector<Vec3> part = beginning_of(pass, std::min(0.5 * whole, length_of(pass)));
+    const double least = tool_->is_centre_cutting ? 0 : least_length();
+    std::vector<Vec3> part = beginning_of(pass, std::min(std::max(0.5 * whole, least), length_of(pass)));
     double length = 0;
     for (std::size_t i = 1; i < part.size(); ++i) length += norm(part[i] - part[i - 1]);
     const auto pairs = static_cast<std::size_t>(std::ceil(whole / (2 * length) - 1e-9));
@@ -264,10 +265,10 @@ void ToolpathLinker::enter(const Pass& pass) {
     const Vec3 first = pass.points[0].tip;
     const double clear = std::max(first.z, stock_near(first, outer_)) + options_.gap;
     if (clear < at_.z) move(raised(first, clear), MoveKind::link);
-    const bool is_ramped = options_.has_ramps && length_of(pass) >= min_ramp && needs_ramp(first);
+    const bool is_ramped = options_.has_ramps && length_of(pass) >= least_length() && needs_ramp(first);
     double top = std::max(first.z, stock_near(first, inner_));
     if (is_ramped) {
-        for (const Vec3& p : beginning_of(pass, (top - first.z) / ramp_slope))
+        for (const Vec3& p : beginning_of(pass, std::max((top - first.z) / ramp_slope, least_length())))
             top = std::max(top, stock_near(p, inner_));
     }
     if (top + options_.gap < at_.z) move(raised(first, top + options_.gap), MoveKind::cut);
@@ -354,7 +355,11 @@ void ToolpathLinker::add_roughing(const std::vector<Pass>& passes) {
             if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
         }
         const auto removes = [&](Vec3 at) { return removes_foam(at); };
-        for (const Pass& part : cutting_parts(pass, air_of_roughing, removes)) add_pass(part);
+        for (const Pass& part : cutting_parts(pass, air_of_roughing, removes)) {
+            const bool is_short = length_of(part) < least_length();
+            if (is_short && !tool_->is_centre_cutting && needs_ramp(part.points[0].tip)) continue;
+            add_pass(part);
+        }
     }
 }
 

@@ -7,7 +7,9 @@
 // The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
 // the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp
 // along itself, unless it begins beside the foam. Plunges, at the feed of approaches: in finishing, through what
-// roughing left, and in roughing where a pass is shorter than min_ramp.
+// roughing left, and in roughing where a pass is shorter than min_ramp. A tool whose centre does not cut goes to and
+// fro on ramps as long as it is wide, and a pass of roughing that is shorter is left out where foam would have to be
+// entered.
 
 #pragma once
 
@@ -100,6 +102,8 @@ class ToolpathLinker {
     double limit_spacing() const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
+    // Of a pass that is entered on a ramp.
+    double least_length() const { return tool_->is_centre_cutting ? min_ramp : std::max(min_ramp, tool_->diameter); }
     // More than roughing leaves to finishing, were the tool a cylinder.
     bool removes_foam(Vec3 at) const;
 

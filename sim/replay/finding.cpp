@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::size_t kept_per_kind = 5;
 constexpr std::array<const char*, finding_kinds> words{
-    "chunk_order",    "tool_frame",    "base_frame",     "load",           "table_angle",   "tool_axis",
-    "tool_change",    "reach",         "joint_limit",    "cable",          "branch",        "singularity",
-    "joint_speed",    "outside_reach", "collision",      "holder_contact", "rapid_in_foam", "feed_window",
-    "link_feed",      "deep_cut",      "removal_rate",   "below_floor",    "spindle_off",   "spindle_speed",
-    "extraction_off", "left_on",       "unknown_signal", "motion_limit",   "not_home",      "start_from_home",
-    "gouge",          "gouge_volume",  "given_up",       "leftover",       "standing_foam", "missing_hole",
-    "shifted_hole",   "hole_depth",    "hole_diameter",  "repeated_hole",  "extra_hole",    "no_cut",
-    "flush_face"};
+    "chunk_order",     "tool_frame",     "base_frame",   "load",           "table_angle",   "tool_axis",
+    "tool_change",     "reach",          "joint_limit",  "cable",          "branch",        "singularity",
+    "joint_speed",     "outside_reach",  "collision",    "holder_contact", "rapid_in_foam", "feed_window",
+    "link_feed",       "deep_cut",       "plunge",       "removal_rate",   "below_floor",   "spindle_off",
+    "spindle_speed",   "extraction_off", "left_on",      "unknown_signal", "motion_limit",  "not_home",
+    "start_from_home", "gouge",          "gouge_volume", "given_up",       "leftover",      "standing_foam",
+    "missing_hole",    "shifted_hole",   "hole_depth",   "hole_diameter",  "repeated_hole", "extra_hole",
+    "no_cut",          "flush_face"};
 
 }  // namespace
 

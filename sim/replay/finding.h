@@ -36,6 +36,7 @@ enum class FindingKind : std::uint8_t {
     feed_window,  // foam is cut slower or faster than the tool may
     link_feed,
     deep_cut,      // more foam at once than the flute is long
+    plunge,        // straight down into foam with a tool whose centre does not cut
     removal_rate,  // foam is removed faster than the tool may
     below_floor,   // a tool point below -spoil + 2 mm
     spindle_off,
@@ -60,7 +61,7 @@ enum class FindingKind : std::uint8_t {
     no_cut,         // the program removes nothing
     flush_face      // a cap is not the sawn face that the job says, or a tool comes to one
 };
-constexpr std::size_t finding_kinds = 43;
+constexpr std::size_t finding_kinds = 44;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

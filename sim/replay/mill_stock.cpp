@@ -25,7 +25,12 @@ constexpr double straight = 0.001;     // mm of deviation that needs no parabola
 // its diameter. It is what rounding of a corner leaves, and skins on walls that are thinner than half a millimetre.
 constexpr double deep_share = 0.1;
 constexpr double deep_width = 0.5;
-constexpr double rim_step = 8;  // mm between points of a body that is sampled
+// Of a tool whose centre does not cut: tangent of the steepest way down in foam, the share of the radius within which
+// it does not cut, and the foam under it that is none.
+constexpr double steepest_ramp = 0.466;  // of 25 degrees
+constexpr double centre_share = 0.5;
+constexpr double under_centre = 0.15;  // mm
+constexpr double rim_step = 8;         // mm between points of a body that is sampled
 
 // Foam above the flute on the last lines: lines may be short, so that each alone meets little.
 class DeepWay {
@@ -74,6 +79,8 @@ class StockMilling {
     void check_cut(const TipLine& line, const CuttingTool& tool, const CutResult& cut);
     void check_spindle(const TipLine& line, const CuttingTool& tool);
     void check_feed(const TipLine& line, const CuttingTool& tool);
+    // Of a part of the line, before it removes anything.
+    void check_plunge(const TipLine& line, const CuttingTool& tool, Vec3 from, Vec3 to);
     void check_holder(const TipLine& line, const CuttingTool& tool);
     bool is_body_in_stock(const TipPose& pose, double from, double to, double radius) const;
     Vec3 tool_axis_of(const TipLine& line) const { return scene_.orientations[line.orientation].tool_axis; }
@@ -94,6 +101,7 @@ void StockMilling::take_line(const TipLine& line, std::size_t index, const std::
     if (!line.is_aligned) return;
     CutResult all;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+        if (!tool.is_centre_cutting) check_plunge(line, tool, way[i], way[i + 1]);
         const CutResult cut =
             stock_model_.cut(line.orientation, cutters_[line.tool], tool.flute_length + written, way[i], way[i + 1]);
         all.touches |= cut.touches;
@@ -172,6 +180,19 @@ void StockMilling::check_feed(const TipLine& line, const CuttingTool& tool) {
     if (line.feed >= 0.999 * least) return;
     log_.add(FindingKind::feed_window, line.place, line.feed, least - line.feed,
              [&] { return "foam is cut at " + fixed(line.feed, 1) + " mm/s, the least is " + fixed(least, 1); });
+}
+
+void StockMilling::check_plunge(const TipLine& line, const CuttingTool& tool, Vec3 from, Vec3 to) {
+    const Vec3 way = to - from;
+    const double down = -dot(way, tool_axis_of(line));
+    const double across = norm(way + down * tool_axis_of(line));
+    if (down <= steepest_ramp * across) return;
+    const double foam = stock_model_.disc_contact(line.orientation, centre_share * 0.5 * tool.diameter, 0, from, to);
+    if (foam <= under_centre) return;
+    log_.add(FindingKind::plunge, line.place, foam, foam, [&] {
+        return "tool " + std::to_string(tool.number) + ", whose centre does not cut, goes straight down into " +
+               fixed(foam, 2) + " mm of foam";
+    });
 }
 
 void StockMilling::check_holder(const TipLine& line, const CuttingTool& tool) {

@@ -9,6 +9,7 @@
 #include "app/report/cell/cell_control_report.h"
 #include "devices/hand_off/first_contact.h"
 #include "devices/wire/device_error.h"
+#include "devices/wire/program_block.h"
 
 namespace qchopper {
 
@@ -21,8 +22,19 @@ constexpr auto read_interval = 500ms;
 constexpr auto keep_interval = 1000ms;
 constexpr auto retry_interval = 2000ms;
 
-// What STATUS says of the fields that the page shows.
-void take(const Status& status, CellView& view) {
+WorkerAnswer answer_to(const DeviceError& error) {
+    constexpr unsigned statuses[] = {502, 502, 423, 409};  // in the order of DeviceFault
+    return error_answer(statuses[static_cast<std::size_t>(error.fault)], error.what(),
+                        "Whether the cell has got the command is not known.", error.to_do);
+}
+
+}  // namespace
+
+std::string to_json(const CellView& view) {
+    return one_line(json_values::to_document(view, -1));
+}
+
+void take_status(const Status& status, CellView& view) {
     view.kind = status.has(flag::simulated) ? CellKind::simulated : CellKind::real;
     view.state = status.state;
     view.asks = status.ack_command == CellCommand::prepare && status.ack_result == AckResult::pending;
@@ -34,19 +46,11 @@ void take(const Status& status, CellView& view) {
     view.progress = runs ? std::optional(status.progress / whole) : std::nullopt;
     view.elapsed_s = runs ? std::optional<double>(status.elapsed_s) : std::nullopt;
     view.remaining_s = runs ? std::optional<double>(status.remaining_s) : std::nullopt;
+    const bool has_place = runs && chunk_of_block(status.block_no) > 0;
+    view.program_chunk = has_place ? std::optional(chunk_of_block(status.block_no)) : std::nullopt;
+    view.program_line = has_place ? std::optional(line_of_block(status.block_no)) : std::nullopt;
+    view.tool = has_place ? std::optional(status.tool_no) : std::nullopt;
     view.link = CellLinkState::connected;
-}
-
-WorkerAnswer answer_to(const DeviceError& error) {
-    constexpr unsigned statuses[] = {502, 502, 423, 409};  // in the order of DeviceFault
-    return error_answer(statuses[static_cast<std::size_t>(error.fault)], error.what(),
-                        "Whether the cell has got the command is not known.", error.to_do);
-}
-
-}  // namespace
-
-std::string to_json(const CellView& view) {
-    return one_line(json_values::to_document(view, -1));
 }
 
 CellLine::CellLine(std::string id, std::string address, std::string name,
@@ -93,7 +97,7 @@ void CellLine::read(Contact& over) const {
 void CellLine::look() {
     read(reader_);
     const std::lock_guard showing(showing_);
-    take(reader_->status, view_);
+    take_status(reader_->status, view_);
     read_at_ = Clock::now();
 }
 

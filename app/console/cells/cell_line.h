@@ -18,10 +18,14 @@
 #include "app/console/cells/cell_view.h"
 #include "app/console/worker/worker.h"
 #include "app/dispatch/contact_cell.h"
+#include "devices/wire/blocks.h"
 
 namespace qchopper {
 
 std::string to_json(const CellView& view);
+
+// What STATUS says of the fields that the page shows: the link is there.
+void take_status(const Status& status, CellView& view);
 
 class CellLine {
  public:

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -28,6 +29,9 @@ struct CellView {
     std::optional<double> progress;  // share
     std::optional<double> elapsed_s;
     std::optional<double> remaining_s;
+    std::optional<std::uint32_t> program_chunk;  // where the program is; nothing of a job without a program
+    std::optional<std::uint32_t> program_line;   // in the file of the chunk, from 1
+    std::optional<std::uint16_t> tool;           // number
     std::optional<double> read_ms_ago;
     CellLinkState link = CellLinkState::never;
 };
@@ -55,6 +59,9 @@ void fields(V& v, T& view) {
     v("progress", view.progress);
     v("elapsed_s", view.elapsed_s);
     v("remaining_s", view.remaining_s);
+    v("program_chunk", view.program_chunk);
+    v("program_line", view.program_line);
+    v("tool", view.tool);
     v("read_ms_ago", view.read_ms_ago);
     v("link", view.link);
 }

@@ -85,7 +85,8 @@ Json tool_json(const CuttingTool& tool) {
             {"rpm", {tool.rpm_min, tool.rpm_max}},
             {"mass_kg", tool.mass_kg},
             {"removal_mm3_per_s", tool.removal_mm3_per_s},
-            {"length_measured", tool.is_length_measured}};
+            {"length_measured", tool.is_length_measured},
+            {"centre_cutting", tool.is_centre_cutting}};
 }
 
 Json spindle_json(const Spindle& spindle) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <regex>
@@ -213,19 +214,24 @@ Arguments prepare_arguments(const std::string& scan) {
     return {"prepare", scan, "--units", "mm", "--cell", foam_cell().string(), "--preset", "thesis", "--min-cuts", "2"};
 }
 
+void make_prepared(const fs::path& folder) {
+    const Ended sampled = run({"sample", "vertebra", "--faces", "3000", "-o", "scan.ply"}, {folder});
+    ASSERT_EQ(sampled.code, 0) << sampled.err;
+    Arguments arguments = prepare_arguments("scan.ply");
+    arguments.insert(arguments.end(), {"-o", "scan.qch"});
+    const Ended made = run(arguments, {folder});
+    ASSERT_EQ(made.code, 0) << made.err;
+}
+
 const fs::path& prepared() {
-    static const Folder folder;
-    static const bool is_made = [] {
-        const Ended sampled = run({"sample", "vertebra", "--faces", "3000", "-o", "scan.ply"}, {folder.path});
-        EXPECT_EQ(sampled.code, 0) << sampled.err;
-        Arguments arguments = prepare_arguments("scan.ply");
-        arguments.insert(arguments.end(), {"-o", "scan.qch"});
-        const Ended made = run(arguments, {folder.path});
-        EXPECT_EQ(made.code, 0) << made.err;
-        return made.code == 0;
+    static const Folder own;
+    static const fs::path folder = [] {
+        if (const char* const shared = std::getenv("QCHOPPER_PREPARED")) return fs::path(shared);
+        make_prepared(own.path);
+        return own.path;
     }();
-    EXPECT_TRUE(is_made);
-    return folder.path;
+    EXPECT_TRUE(fs::exists(folder / "scan.qch" / "project.json")) << folder;
+    return folder;
 }
 
 }  // namespace qchopper::program

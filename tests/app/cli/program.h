@@ -78,9 +78,11 @@ void put(const std::filesystem::path& file, const std::string& bytes);
 
 // The cell file that comes with the project.
 std::filesystem::path foam_cell();
-// Made once per process: a folder with scan.ply (vertebra, 3,000 faces) and scan.qch, prepared with two cuts by the
-// preset thesis, of which every piece has several caps and much out of reach.
+// A folder with scan.ply (vertebra, 3,000 faces) and scan.qch, prepared with two cuts by the preset thesis, of which
+// every piece has several caps and much out of reach. Only read. ctest makes it once for all suites and names it in
+// QCHOPPER_PREPARED; without that it is made once per process.
 const std::filesystem::path& prepared();
+void make_prepared(const std::filesystem::path& folder);
 // The arguments of prepare for it, without the output.
 Arguments prepare_arguments(const std::string& scan);
 

@@ -57,6 +57,7 @@ TEST_F(Repair, StopsInTheMiddleOfAnAlphaWrapAndLeavesNothing) {
     const program::Contents before = program::contents(folder.path);
     program::Process process(
         {"repair", "scan.ply", "--units", "mm", "--alpha-wrap", "0.3", "-o", "wrapped.ply", "--json"}, {folder.path});
+    ASSERT_TRUE(process.waits_until_signals_are_caught());
     std::this_thread::sleep_for(std::chrono::seconds(1));
     process.signal(SIGINT);
     const Ended ended = process.wait(60);

@@ -26,20 +26,37 @@ using program::Arguments;
 using program::Contents;
 using program::Ended;
 
+// A small vertebra, which a KUKA cell carves in few pieces: v.ply and kr60-ha.toml, and a project for each way to make
+// its programs, made once per process.
+const fs::path& sources() {
+    static const program::Folder folder;
+    static const bool is_made = [] {
+        fs::copy(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml", folder.path / "kr60-ha.toml");
+        return program::run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}, {folder.path}).code == 0;
+    }();
+    EXPECT_TRUE(is_made);
+    return folder.path;
+}
+
+fs::path project_by(const std::string& option) {
+    const fs::path project = sources() / (option.substr(2) + ".qch");
+    if (fs::exists(project)) return project;
+    const Ended ended = program::run({"prepare", "v.ply", "--units", "mm", "--scale", "0.35", "--cell", "kr60-ha.toml",
+                                      "-o", project.filename().string(), option},
+                                     {sources()});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return project;
+}
+
 struct ShardedWork : ::testing::Test {
     program::Folder folder;
     Ended run(const Arguments& arguments) const { return program::run(arguments, {folder.path}); }
-    // A small vertebra, which a KUKA cell carves in few pieces.
-    void prepare(const std::string& name, const Arguments& further) const {
-        Arguments arguments{"prepare", "v.ply",  "--units",      "mm", "--scale",
-                            "0.35",    "--cell", "kr60-ha.toml", "-o", name};
-        arguments.insert(arguments.end(), further.begin(), further.end());
-        const Ended ended = run(arguments);
-        ASSERT_EQ(ended.code, 0) << ended.err;
+    // `option` is --items or --programs.
+    void prepare(const std::string& name, const std::string& option) const {
+        fs::copy(project_by(option), folder.path / name, fs::copy_options::recursive);
     }
     void SetUp() override {
-        fs::copy(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml", folder.path / "kr60-ha.toml");
-        ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0);
+        for (const char* name : {"v.ply", "kr60-ha.toml"}) fs::copy(sources() / name, folder.path / name);
     }
     // Of attempts that are on record.
     std::ptrdiff_t attempts(const std::string& project) const {
@@ -79,8 +96,8 @@ struct ShardedWork : ::testing::Test {
 
 // Without cache and work, which are no result.
 TEST_F(ShardedWork, OfShardsIsWhatPrepareMakesToTheByte) {
-    prepare("whole.qch", {"--programs"});
-    prepare("parts.qch", {"--items"});
+    prepare("whole.qch", "--programs");
+    prepare("parts.qch", "--items");
     EXPECT_EQ(run({"work", "parts.qch", "--status", "--json"}).code, 0);
     // No scan is needed, and no lock: nothing but the items.
     fs::rename(folder.path / "v.ply", folder.path / "away.ply");
@@ -121,7 +138,7 @@ TEST_F(ShardedWork, OfShardsIsWhatPrepareMakesToTheByte) {
 
 // A result that is cut short, has another bit or is that of another piece is not used.
 TEST_F(ShardedWork, DamagedItemsAndResultsAreNamedAndNotUsed) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const fs::path items = folder.path / "p.qch" / "work" / "items";
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(items)) files.push_back(entry.path());
@@ -169,7 +186,7 @@ TEST_F(ShardedWork, IsRefusedWhereItCannotBeDone) {
 }
 
 TEST_F(ShardedWork, AreHandedToSlurmByAScript) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const std::string path = ::getenv("PATH");
     ::setenv("PATH", folder.path.c_str(), 1);
     const Ended none = run({"submit", "p.qch"});
@@ -187,8 +204,8 @@ TEST_F(ShardedWork, AreHandedToSlurmByAScript) {
 
 // The jobs are those of prepare, also after a process was killed in the middle.
 TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
-    prepare("whole.qch", {"--programs"});
-    prepare("parts.qch", {"--items"});
+    prepare("whole.qch", "--programs");
+    prepare("parts.qch", "--items");
     const fs::path work = folder.path / "parts.qch" / "work";
     kill_at_work("parts.qch");
     const json status = json::parse(run({"work", "parts.qch", "--status", "--json"}).out);
@@ -217,7 +234,7 @@ TEST_F(ShardedWork, IsDoneByProcessesOnThisMachine) {
 }
 
 TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     for (int k = 0; k < 3; ++k) EXPECT_EQ(ended_at_work("p.qch", SIGTERM).code, exit_terminated);
     EXPECT_EQ(attempts("p.qch"), 0) << "a stop is no failure";
     EXPECT_EQ(run({"submit", "p.qch", "--print"}).code, 0);
@@ -239,7 +256,7 @@ TEST_F(ShardedWork, IsGivenUpAfterThreeFailures) {
 }
 
 TEST_F(ShardedWork, OfTwoProcessesOnOneItemAtOnceDoesNoHarm) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const fs::path work = folder.path / "p.qch" / "work";
     const std::string item = (work / "items" / "B.qitem").string();
     program::Process first({"work", item, "--threads", "1"}, {folder.path});
@@ -256,7 +273,7 @@ TEST_F(ShardedWork, OfTwoProcessesOnOneItemAtOnceDoesNoHarm) {
 
 // Another process has made something else of the same item meanwhile: a fault of the program or of a machine.
 TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const fs::path work = folder.path / "p.qch" / "work";
     const fs::path file = work / "items" / "B.qitem";
     const WorkItem item = item_from(read_file(file), file, build());
@@ -278,7 +295,7 @@ TEST_F(ShardedWork, OtherBytesOfOneItemAreAnErrorAndBothAreKept) {
 }
 
 TEST_F(ShardedWork, WhatTheArmRefusesIsNamedByGatherWithTheNextStep) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const fs::path work = folder.path / "p.qch" / "work";
     const fs::path file = work / "items" / "B.qitem";
     const WorkItem item = item_from(read_file(file), file, build());
@@ -299,7 +316,7 @@ TEST_F(ShardedWork, WhatTheArmRefusesIsNamedByGatherWithTheNextStep) {
 }
 
 TEST_F(ShardedWork, WhereNothingCanBeWrittenIsToldSo) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     for (const char* name : {"attempts", "results"}) {
         const fs::path file = folder.path / "p.qch" / "work" / name;
         fs::remove_all(file);
@@ -320,7 +337,7 @@ TEST(LocalEngine, HasAsManyProcessesAsMemoryHolds) {
 }
 
 TEST_F(ShardedWork, ADecisionRemovesItems) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     EXPECT_TRUE(fs::exists(folder.path / "p.qch" / "work" / "items"));
     ASSERT_EQ(run({"segment", "p.qch", "--undo"}).code, 0);
     EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "work"));
@@ -333,7 +350,7 @@ TEST_F(ShardedWork, ADecisionRemovesItems) {
 }
 
 TEST_F(ShardedWork, ItemsOfOtherPiecesOrOfAnotherCellAreNotGathered) {
-    prepare("p.qch", {"--items"});
+    prepare("p.qch", "--items");
     const fs::path project = folder.path / "p.qch";
     ASSERT_EQ(run({"work", "p.qch"}).code, 0);
     const std::string cell = program::bytes_in(project / "cell.toml");

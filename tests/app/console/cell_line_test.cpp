@@ -5,6 +5,7 @@
 #include <future>
 
 #include "base/files/temporary_folder.h"
+#include "devices/wire/program_block.h"
 #include "sim/cell/cell_sim.h"
 
 namespace qchopper {
@@ -30,6 +31,28 @@ struct Line : ::testing::Test {
                                           [this](const CellView&) { ++changes; });
     }
 };
+
+TEST(CellView, SaysWhereTheProgramIsWhileTheJobRuns) {
+    Status status;
+    status.job_id = Uuid{1};
+    status.job_state = JobState::running;
+    status.block_no = program_block(3, 812);
+    status.tool_no = 2;
+    CellView view;
+    take_status(status, view);
+    EXPECT_EQ(view.program_chunk, 3U);
+    EXPECT_EQ(view.program_line, 812U);
+    EXPECT_EQ(view.tool, 2U);
+    EXPECT_NE(to_json(view).find("\"program_line\":812"), std::string::npos) << to_json(view);
+    status.block_no = 812;  // of a job without a program
+    take_status(status, view);
+    EXPECT_FALSE(view.program_chunk || view.program_line || view.tool);
+    status.block_no = program_block(3, 812);
+    status.job_state = JobState::ended;
+    take_status(status, view);
+    EXPECT_FALSE(view.program_chunk || view.program_line || view.tool);
+    EXPECT_NE(to_json(view).find("\"program_line\":null"), std::string::npos) << to_json(view);
+}
 
 TEST_F(Line, ShowsWhatTheCellSaysOfItself) {
     CellSim sim(CellSimOptions{});

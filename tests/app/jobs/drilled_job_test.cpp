@@ -1,5 +1,6 @@
-// A small piece with three holes that the robot drills, two straight down and one along a tilted cap, in the ready KUKA
-// cells: the job as made is proven, and every fault of its holes is found.
+// A small piece with three holes, two straight down and one along a tilted cap, in all ready cells of the three
+// dialects: the job as made is proven, and in those of KUKA every fault of its holes is found. A gantry drills straight
+// down alone.
 
 #include <gtest/gtest.h>
 
@@ -277,7 +278,9 @@ void fill_in(ReadJob& job, const Cell& cell) {
     }
 }
 
+// Its robot drills all three holes.
 struct DrilledJobsOf : ::testing::TestWithParam<std::string> {};
+struct FaultsOfDrilledJobs : ::testing::TestWithParam<std::string> {};
 
 TEST_P(DrilledJobsOf, AreProvenAsTheyWereMade) {
     const ProvenJob& proven = drilled_job(GetParam());
@@ -294,7 +297,23 @@ TEST_P(DrilledJobsOf, AreProvenAsTheyWereMade) {
     EXPECT_LE(figures["max_hole_offset_mm"], 0.02);
 }
 
-TEST_P(DrilledJobsOf, EveryFaultOfAHoleIsFound) {
+TEST(DrilledJobs, AGantryDrillsStraightDownAndLeavesTheTiltedHoleToTheHand) {
+    const ProvenJob& proven = drilled_job("gantry-3axis");
+    for (const ProofFinding& finding : proven.verdict.findings) ADD_FAILURE() << describe(finding);
+    EXPECT_TRUE(proven.verdict.is_positive);
+    EXPECT_EQ(proven.job.program->holes, (std::vector<std::size_t>{1, 2}));
+    const std::vector<JobHole> holes = holes_of(proven.job.caps);
+    ASSERT_EQ(holes.size(), 3U);
+    EXPECT_TRUE(holes[0].by_robot && holes[1].by_robot);
+    EXPECT_FALSE(holes[2].by_robot);
+    EXPECT_NE(holes[2].by_hand, "");
+    for (const ProofFigure& figure : proven.verdict.figures) {
+        if (figure.key != "holes_due" && figure.key != "holes_drilled") continue;
+        EXPECT_EQ(figure.value, 2) << figure.key;
+    }
+}
+
+TEST_P(FaultsOfDrilledJobs, AreAllFound) {
     const ProvenJob& proven = drilled_job(GetParam());
     ASSERT_EQ(proven.job.program->holes, (std::vector<std::size_t>{1, 2, 3}));
     for (const Fault& fault : faults()) {
@@ -397,7 +416,9 @@ TEST(DrilledJobs, EveryPartDrillsItsHolesAndAllOfThemAll) {
     std::printf("%zu parts, %zu of them drill\n", programs.parts.size(), with_holes);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kuka, DrilledJobsOf, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
+INSTANTIATE_TEST_SUITE_P(Arms, DrilledJobsOf,
+                         ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary", "irb6640-185-2.8"));
+INSTANTIATE_TEST_SUITE_P(Kuka, FaultsOfDrilledJobs, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
 
 TEST(DrilledJobs, ARestartDrillsTheHolesOfItsChunks) {
     const ProvenJob& whole = drilled_job("kr60-ha");

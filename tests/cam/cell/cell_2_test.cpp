@@ -305,6 +305,8 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
         {"rpm = [6000, 18000]", "rpm = [6000.5, 18000]", "rpm = [6000.5", "tool.rpm", "whole"},
         {"length_measured = false", "length_measured = 0", "length_measured = 0", "tool.length_measured",
          "true or false"},
+        {"length_measured = false", "length_measured = false\ncentre_cutting = false", "centre_cutting",
+         "tool.centre_cutting", "no meaning for the shape ball"},
         {"sawn = true  # may be sawn down\n", "", "kerf = 3", "stock.kerf", "not sawn"},
         {"kerf = 3.0", "", "name = \"large\"", "stock.kerf", "missing"},
         {"max_tilt_deg = 60.0", "max_tilt_deg = 91.0", "max_tilt_deg", "max_tilt_deg", "out of bounds"},

@@ -429,6 +429,30 @@ TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     expect_clean(replay, "tall box");
 }
 
+// A flat tool roughs the hole of a ring, whose levels are entered from above. Finishing, of which no tool without a
+// centre is taken, shows that the replay sees what goes straight down.
+TEST(MakeToolpath, AToolWhoseCentreDoesNotCutNeverPlunges) {
+    const TriangleMesh mesh = shapes::torus({0, 0, 15}, 70, 18);
+    const auto setup = setup_of(mesh, 9);
+    Cell cell = ready_cell();
+    ToolpathSettings settings = coarse_settings();
+    settings.roughing_tool = 1;
+    ASSERT_EQ(cell.machine->tools[1].shape, ToolShape::flat);
+    cell.machine->tools[1].is_centre_cutting = false;
+    const Toolpath path = make_toolpath(setup, mesh, cell, settings);
+    for (CuttingTool& tool : cell.machine->tools) tool.is_centre_cutting = false;
+    PlainReplay replay(setup, cell, 2.1);
+    for (const Operation& operation : path.operations) {
+        const std::size_t before = replay.faults().plunge;
+        replay.mill(operation);
+        if (operation.kind == OperationKind::roughing) {
+            EXPECT_EQ(replay.faults().plunge, before) << replay.faults().first;
+        }
+    }
+    EXPECT_GT(replay.faults().plunge, 0U);
+    EXPECT_EQ(replay.faults().all(), replay.faults().plunge) << replay.faults().first;
+}
+
 TEST(MakeToolpath, IsTheSameForAnyNumberOfThreads) {
     const TriangleMesh mesh = bumpy(70, 20, 40, 5);
     const auto setup = setup_of(mesh, 6, 40);

@@ -197,6 +197,30 @@ TEST(ToolpathLinker, EntersOnARampAndComesDownToJustAboveTheFoam) {
     }
 }
 
+// To and fro over at least its own width, so that what the middle leaves is cut by the rim; a shorter pass is left out.
+TEST(ToolpathLinker, AToolWhoseCentreDoesNotCutHasRampsAsLongAsItIsWide) {
+    Plate plate;
+    CuttingTool tool = flat_tool(20);
+    tool.is_centre_cutting = false;
+    LinkOptions options;
+    options.has_ramps = true;
+    ToolpathLinker builder(plate.space, tool, plate.operation, options);
+    builder.add({line({60, 100, 28}, {140, 100, 28}), line({20, 20, 28}, {35, 20, 28})});
+    Vec3 at;
+    for (const PathRun& run : builder.finish()) {
+        at = run.start;
+        for (const PathMove& move : run.moves) {
+            EXPECT_EQ(move.tip.y, 100) << "the pass of 15 mm is left out";
+            const double across = std::hypot(move.tip.x - at.x, move.tip.y - at.y);
+            const bool is_down = move.kind == MoveKind::cut && move.tip.z < std::min(at.z, 30.0) - 1e-9;
+            if (is_down && at.z <= 30) {
+                EXPECT_GE(across, 20 - 1e-9);
+            }
+            at = move.tip;
+        }
+    }
+}
+
 TEST(ToolpathLinker, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
     Plate plate;
     const CuttingTool tool = ball_tool(12);

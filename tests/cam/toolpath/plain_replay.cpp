@@ -46,6 +46,8 @@ void PlainReplay::meet(const CuttingTool& tool, std::size_t point, double above,
         const bool is_inside = beside < 0.5 * tool.diameter - touch && in_shape > touch;
         if (is_inside && !is_cut) note(faults_.link_in_stock, "link in foam" + where);
         if (is_inside && is_cut && above > tool.flute_length) note(faults_.above_flute, "above the flute" + where);
+        const bool is_centre = beside < 0.25 * tool.diameter && in_shape > touch;
+        if (is_steep_ && is_centre && !tool.is_centre_cutting) note(faults_.plunge, "plunge" + where);
         if (is_cut) is_stock_[point] = 0;
         return;
     }
@@ -105,6 +107,8 @@ void PlainReplay::mill(const Operation& operation) {
         }
         for (const PathMove& move : run.moves) {
             const double length = norm(move.tip - at);
+            const double down = dot(tool_axis, at - move.tip);
+            is_steep_ = down > 0.4663 * norm(move.tip - at + down * tool_axis);
             const auto parts = static_cast<std::size_t>(length / 1.4) + 1;
             for (std::size_t i = 0; i <= parts; ++i) {
                 const Vec3 tip = at + (static_cast<double>(i) / static_cast<double>(parts)) * (move.tip - at);

@@ -19,8 +19,9 @@ struct ReplayFaults {
     std::size_t holder = 0;         // foam that holder or spindle met
     std::size_t below_spoil = 0;    // tips deeper than 2 mm above the table
     std::size_t not_at_retract = 0;
-    std::string first;  // what was found first
-    std::size_t all() const { return link_in_stock + above_flute + holder + below_spoil + not_at_retract; }
+    std::size_t plunge = 0;  // places on steep ways down with foam under the middle of a tool that does not cut there
+    std::string first;       // what was found first
+    std::size_t all() const { return link_in_stock + above_flute + holder + below_spoil + not_at_retract + plunge; }
 };
 
 class PlainReplay {
@@ -34,6 +35,7 @@ class PlainReplay {
  private:
     void stand(const Operation& operation, Vec3 tip, MoveKind kind, bool with_holder);
     void meet(const CuttingTool& tool, std::size_t point, double above, double beside, MoveKind kind);
+    bool is_steep_ = false;  // the move goes down more steeply than 25 degrees
     void note(std::size_t& count, const std::string& what);
 
     const Setup& setup_;

@@ -53,16 +53,24 @@ class Lines {
             path_.lines.push_back(line);
         }
     }
-    std::size_t deep_cuts() const {
-        FindingLog log;
-        StockModel stock_model(block, {out_}, cell);
-        mill_stock(stock_model, path_, scene_, false, log, {});
-        return log.count(FindingKind::deep_cut);
+    void lack_a_centre() { job_.cell.machine->tools[1].is_centre_cutting = false; }
+    // From one height to another.
+    void go_down(double height, double to_height, double to_y) {
+        go(0, 0, height, to_y);
+        path_.lines.back().to = point(0, to_y, to_height);
     }
+    std::size_t deep_cuts() const { return count(FindingKind::deep_cut); }
+    std::size_t plunges() const { return count(FindingKind::plunge); }
     // Height of the block's top over the point.
     double top(double side) const { return side * out_.x / out_.z; }
 
  private:
+    std::size_t count(FindingKind kind) const {
+        FindingLog log;
+        StockModel stock_model(block, {out_}, cell);
+        mill_stock(stock_model, path_, scene_, false, log, {});
+        return log.count(kind);
+    }
     Vec3 point(double side, double y, double height) const {
         return Vec3{0, y, 0} + side * Vec3{out_.z, 0, -out_.x} + height * out_;
     }
@@ -106,6 +114,23 @@ TEST_P(DeepCut, AThinSkinOnALongWallIsNoneAndAThickOneIs) {
         beside.go(skin, -150, end, 150);
         EXPECT_EQ(beside.deep_cuts(), skin < 1 ? 0U : 1U) << skin;
     }
+}
+
+// Straight down, on a ramp of 20 degrees and of 30, and down once more where it is free.
+TEST_P(DeepCut, APlungeIsFoundOfAToolWhoseCentreDoesNotCut) {
+    const double down = tip(0, 10);
+    const auto plunges = [&](double to_y, bool lacks_a_centre, bool is_milled) {
+        Lines own(GetParam());
+        if (is_milled) own.go(0, -220, down, 220);
+        if (lacks_a_centre) own.lack_a_centre();
+        own.go_down(tip(0, -1), down, to_y);
+        return own.plunges();
+    };
+    EXPECT_EQ(plunges(0, true, false), 1U);
+    EXPECT_EQ(plunges(11 / 0.577, true, false), 1U);
+    EXPECT_EQ(plunges(11 / 0.364, true, false), 0U);
+    EXPECT_EQ(plunges(0, false, false), 0U);
+    EXPECT_EQ(plunges(0, true, true), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tilts, DeepCut, testing::Values(0, 35));

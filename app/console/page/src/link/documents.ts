@@ -41,6 +41,9 @@ export interface Cell {
   progress: number | null;
   elapsed_s: number | null;
   remaining_s: number | null;
+  program_chunk: number | null; // where the program is
+  program_line: number | null; // in the file of the chunk, from 1
+  tool: number | null;
   read_ms_ago: number | null;
   link: "connected" | "lost" | "never";
 }

@@ -51,6 +51,7 @@ function CellLine({ cell, stale }: { cell: Cell; stale: boolean }) {
         {cell.progress !== null && ` ${percent(cell.progress)}`}
         {cell.elapsed_s !== null && `, ${time(cell.elapsed_s)}`}
         {cell.remaining_s !== null && `, about ${time(cell.remaining_s)} left`}
+        {cell.program_chunk !== null && `, chunk ${cell.program_chunk}, line ${cell.program_line}, tool ${cell.tool}`}
       </span>
       <ReadAge cell={cell} />
       <span class="note">In danger press the red button at the cell.</span>
