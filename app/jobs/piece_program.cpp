@@ -1,8 +1,9 @@
 // One step after the other; toolpath and replay take most of the time, and whether the arm follows a toolpath is asked
 // without the holes, which come after it. A setup is placed by poses that are known before there is a toolpath
 // (milling_poses.h). Where the arm cannot follow it, its block is placed again, by these poses and by those of the run
-// that was refused, and so on a few times; where that has no other place, once by those of all runs. The toolpath
-// stays. With the refused runs alone one piece of a bunny at 1.5 m got its program and another one did not; with all
+// that was refused, and so on a few times; where that has no other place, by those of all runs so far. The toolpath
+// stays, and each operation is asked as soon as it is made: what no place holds lies mostly in the roughing, a fifth of
+// the work. With the refused runs alone one piece of a bunny at 1.5 m got its program and another one did not; with all
 // runs at once it was the other way round. The plan knows foam in cells and may miss a thin wall of it: where the proof
 // finds tools too fast for that, and nothing else, the whole is made again with less feed of these.
 
@@ -85,13 +86,13 @@ Drilling drilling_of(const std::vector<RemovedFoam>& removed, const Piece& piece
 // Places for the block of a setup, the next one after a program was refused at the one before.
 class OtherPlaces {
  public:
-    OtherPlaces(const PlacedSetup& known, const Toolpath& path, const Piece& piece, const Cell& cell,
-                const Context& context)
-        : known_(known), path_(path), piece_(piece), cell_(cell), context_(context) {}
+    OtherPlaces(const PlacedSetup& known, const Piece& piece, const Cell& cell, const Context& context)
+        : known_(known), piece_(piece), cell_(cell), context_(context) {}
 
     // That holds best the runs that were refused so far, and the poses of the setup; else that which holds all runs
-    // best, then the first of a coarse grid that holds the former. Nothing if all were tried or do not hold the setup.
-    std::optional<PlacedSetup> next(const ProgramRefused& refused) {
+    // of the operations best that are known so far, then the first of a coarse grid that holds the former. Nothing if
+    // all were tried or do not hold the setup.
+    std::optional<PlacedSetup> next(const ProgramRefused& refused, const std::vector<Operation>& operations) {
         const Setup& setup = known_.setup();
         if (poses_.empty()) {
             poses_ = milling_poses(setup, *piece_.mesh, cell_);
@@ -101,10 +102,10 @@ class OtherPlaces {
             add(poses_, refused.run()->orientation, refused.run()->run);
         }
         std::optional<PlacedSetup> other = at(place_block(setup, poses_, cell_, {}, context_).placement);
-        if (!other && !are_all_runs_asked_) {  // the runs that are refused later are among them
-            are_all_runs_asked_ = true;
+        if (!other && asked_ < operations.size()) {  // runs that would be refused later are among them
+            asked_ = operations.size();
             std::vector<OrientationPoses> all = poses_;
-            for (const Operation& operation : path_.operations) {
+            for (const Operation& operation : operations) {
                 for (const PathRun& run : operation.runs) add(all, operation.orientation, run);
             }
             other = at(place_block(setup, all, cell_, {}, context_).placement);
@@ -128,13 +129,12 @@ class OtherPlaces {
     }
 
     const PlacedSetup& known_;
-    const Toolpath& path_;
     const Piece& piece_;
     const Cell& cell_;
     const Context& context_;
     std::vector<OrientationPoses> poses_;
     std::vector<BlockPlacement> tried_;
-    bool are_all_runs_asked_ = false;
+    std::size_t asked_ = 0;  // operations of which all runs were asked at once
 };
 
 // Whether the arm follows the toolpath alone where the block stands: throws ProgramRefused if not.
@@ -258,17 +258,31 @@ ProgramInput program_of(const PostedProgram& posted, std::size_t number, const M
 FollowedToolpath followed_with(const ToolpathSettings& settings, const Piece& piece, const PlacedSetup& known,
                                const Cell& cell, const Context& context) {
     StageTimer stage(context, "toolpaths made");
-    InProcessStock left(known.setup());
-    FollowedToolpath followed{make_toolpath(known.setup(), *piece.mesh, cell, settings, context, &left), {}};
-    stage.next("programs made");
-    OtherPlaces places(known, followed.toolpath, piece, cell, context);
+    OtherPlaces places(known, piece, cell, context);
     PlacedSetup piece_setup = known;
+    const auto check_newest = [&](const std::vector<Operation>& so_far) {
+        for (std::size_t i = so_far.size() - 1; i < so_far.size();) {
+            try {
+                check_operation(so_far[i], i + 1, piece_setup.setup(), piece_setup.machine_reachability, cell, context);
+                ++i;
+            } catch (const ProgramRefused& refused) {
+                std::optional<PlacedSetup> other = places.next(refused, so_far);
+                if (!other) throw;
+                piece_setup = std::move(*other);
+                i = 0;
+            }
+        }
+    };
+    InProcessStock left(known.setup());
+    FollowedToolpath followed{make_toolpath(known.setup(), *piece.mesh, cell, settings, context, &left, check_newest),
+                              {}};
+    stage.next("programs made");
     while (true) {
         try {
             check_followed(followed.toolpath, piece_setup, cell, context);
             break;
         } catch (const ProgramRefused& refused) {
-            std::optional<PlacedSetup> other = places.next(refused);
+            std::optional<PlacedSetup> other = places.next(refused, followed.toolpath.operations);
             if (!other) throw;
             piece_setup = std::move(*other);
         }

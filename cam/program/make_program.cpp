@@ -270,6 +270,10 @@ class OperationHolder {
     std::string left_out_because_;
 };
 
+std::string name_of_operation(std::size_t number) {
+    return "operation " + std::to_string(number) + " of the toolpath";
+}
+
 struct PlannedOperations {
     std::vector<PlannedOperation> all;  // of all operations, in their order
     double left_out = 0;
@@ -286,7 +290,7 @@ PlannedOperations planned_operations(const Toolpath& toolpath, const Setup& setu
     std::vector<std::vector<Capsule>> foam(count);
     SharedProgress progress(context, "operations held", count);
     parallel_for(0, count, [&](std::size_t i) {
-        const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
+        const std::string where = name_of_operation(i + 1);
         try {
             OperationHolder holder(setup, reachability, cell, toolpath.operations[i], context);
             by_operation[i] = holder.operations(where);
@@ -462,6 +466,11 @@ Program make_program(const Toolpath& toolpath, const Setup& setup, const Machine
     program.left_out_because = std::move(operations.left_out_because);
     for (PlannedOperation& planned : all) program.operations.push_back(std::move(planned.operation));
     return program;
+}
+
+void check_operation(const Operation& operation, std::size_t number, const Setup& setup,
+                     const MachineReachability& reachability, const Cell& cell, const Context& context) {
+    OperationHolder(setup, reachability, cell, operation, context).operations(name_of_operation(number));
 }
 
 Program outlined_program(const std::vector<OutlinedOperation>& operations, const Setup& setup, const Cell& cell) {

@@ -50,6 +50,11 @@ class ProgramRefused : public InputError {
 Program make_program(const Toolpath& toolpath, const Setup& setup, const MachineReachability& reachability,
                      const Cell& cell, const Context& context = {});
 
+// Throws ProgramRefused, as make_program() would of a toolpath in which it is operation `number`, from 1 on, if no arm
+// postures carry an operation. Ways to it and from it are not asked. O(its length / 10 mm + its moves).
+void check_operation(const Operation& operation, std::size_t number, const Setup& setup,
+                     const MachineReachability& reachability, const Cell& cell, const Context& context = {});
+
 // An operation as a main program sees it.
 struct OutlinedOperation {
     std::size_t tool = 0;         // index in CellMachine::tools

@@ -59,8 +59,10 @@ EdgeRises::EdgeRises(const HeightField& tip, const CellMask& mask, double jump, 
     }
     std::sort(sides_.begin(), sides_.end());
     sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
-    number_.assign(2 * tip.height.size(), none);
-    for (std::size_t i = 0; i < sides_.size(); ++i) number_[sides_[i]] = static_cast<std::uint32_t>(i);
+    for (std::size_t row = 0; row <= tip.rows; ++row) {
+        const auto first = std::lower_bound(sides_.begin(), sides_.end(), 2 * row * tip.columns);
+        first_of_row_.push_back(static_cast<std::size_t>(first - sides_.begin()));
+    }
     is_known_.resize(sides_.size());
     rises_.resize(sides_.size() * (steps - 1));
     parallel_ranges(0, sides_.size(), sides_at_once, [&](std::size_t first, std::size_t end) {
@@ -71,8 +73,11 @@ EdgeRises::EdgeRises(const HeightField& tip, const CellMask& mask, double jump, 
 }
 
 std::optional<double> EdgeRises::share_below(std::uint64_t side, double z) const {
-    const std::size_t i = number_[side];
-    if (i == none || is_known_[i] == 0) return std::nullopt;
+    const std::size_t row = side / 2 / tip_.columns;
+    const auto end = sides_.begin() + static_cast<std::ptrdiff_t>(first_of_row_[row + 1]);
+    const auto found = std::lower_bound(sides_.begin() + static_cast<std::ptrdiff_t>(first_of_row_[row]), end, side);
+    const auto i = static_cast<std::size_t>(found - sides_.begin());
+    if (found == end || *found != side || is_known_[i] == 0) return std::nullopt;
     const float* rise = &rises_[i * (steps - 1)];
     const float* above = std::upper_bound(rise, rise + (steps - 1), static_cast<float>(z));
     return static_cast<double>(above - rise) / steps;

@@ -31,25 +31,24 @@ class EdgeRises {
  public:
     // Of the sides, with a rise above `jump`, of all squares of four centres that begin at a cell of the mask. `tool`
     // is what the surface was made with; it may have been raised since, by holder or foam. The map must outlive it. On
-    // several threads; the result does not depend on them. O(cells + sides * (radius / cell)^2), 72 bytes a side and 8
-    // a cell.
+    // several threads; the result does not depend on them. O(cells + sides * (radius / cell)^2), 72 bytes a side.
     EdgeRises(const HeightField& tip, const CellMask& mask, double jump, const ToolDilation& tool);
 
     // How far from its lower end, as a share in steps of a sixteenth, the surface over a side is not above a height
     // that lies between those of its ends. Nothing if its higher end is not where the tool alone asks for it.
+    // O(log sides of its row).
     std::optional<double> share_below(std::uint64_t side, double z) const;
 
  private:
     static constexpr std::size_t steps = 16;
-    static constexpr std::uint32_t none = 0xFFFFFFFF;
 
     // The highest so far at the steps from the lower end on, but for the first and the last: as far as it lies below
     // the higher end. False if the edge is not the tool's.
     bool rise_along(std::uint64_t side, const ToolDilation& tool, float* rise) const;
 
     const HeightField& tip_;
-    std::vector<std::uint64_t> sides_;   // ascending
-    std::vector<std::uint32_t> number_;  // of each side of the map: its index in sides_, or none
+    std::vector<std::uint64_t> sides_;       // ascending
+    std::vector<std::size_t> first_of_row_;  // in sides_, of each row of cells, and the end
     std::vector<std::uint8_t> is_known_;
     std::vector<float> rises_;  // steps - 1 of each side
 };

@@ -11,9 +11,9 @@
 // most twice for each kind of finishing, to the directions that reach it better. The finest tool roughs before it
 // finishes. What one operation finishes: finishing_operation.cpp.
 //
-// Foam is known in cells of a sixth of the finest tool's radius, 0.5 mm at least: a small tool lowers larger cells
-// hardly at all. Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle
-// is known too (StockCells), because a skin that roughing leaves on a wall is as thick as a cell.
+// Foam is known in cells by the finest tool's radius (stock_cell_of()): a small tool lowers larger cells hardly at all.
+// Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle is known too
+// (StockCells), because a skin that roughing leaves on a wall is as thick as a cell.
 //
 // Cost: that of the passes; per operation with blocked passes a CL surface is kept, 4 bytes a cell of finishing, and
 // the foam is held twice. Tests: tests/cam/toolpath/make_toolpath_test.cpp, PassesThatFoamBlocksAreTakenUpAgain...,
@@ -48,8 +48,12 @@
 namespace qchopper {
 namespace {
 
-constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
-constexpr double min_stock_cell = 0.5;
+// Of the maps of foam, mm: a quarter of the finest tool's radius between 0.5 and 1, and a sixth of it from there on.
+double stock_cell_of(const CuttingTool& finest) {
+    const double radius = 0.5 * finest.diameter;
+    return std::max(std::clamp(radius / 4, 0.5, 1.0), radius / 6);
+}
+
 // Of the scallop height, foam that finishing leaves rather than come for it: lower than what it leaves between passes.
 constexpr double film_share = 0.8;
 constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
@@ -66,12 +70,13 @@ constexpr double skin_beyond = 4.2;       // mm beyond the allowance: a narrower
 class ToolpathMaker {
  public:
     ToolpathMaker(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
-                  const Context& context)
+                  const OperationCheck& check, const Context& context)
         : setup_(setup),
           mesh_(mesh),
           cell_(cell),
           machine_(*cell.machine),
           settings_(settings),
+          check_(check),
           context_(context),
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
@@ -82,8 +87,7 @@ class ToolpathMaker {
         if (settings.finishing_tools.empty()) {
             tools_.finishing = worthwhile_tools(setup, mesh, cell, tools_.finishing, settings, context);
         }
-        const double finest = 0.5 * machine_.tools[tools_.finishing.back()].diameter;
-        stock_cell_ = std::max(min_stock_cell, finest / cells_per_radius);
+        stock_cell_ = stock_cell_of(machine_.tools[tools_.finishing.back()]);
         double widest = 0;
         for (const CuttingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
         border_ = widest + border_cells * stock_cell_;
@@ -359,6 +363,7 @@ class ToolpathMaker {
         stock_.remove_above(operation.orientation, space.removed);
         centre_stock_.remove_above(operation.orientation, space.centre_removed);
         toolpath_.operations.push_back(std::move(operation));
+        if (check_) check_(toolpath_.operations);
     }
 
     const Setup& setup_;
@@ -366,6 +371,7 @@ class ToolpathMaker {
     const Cell& cell_;
     const CellMachine& machine_;
     const ToolpathSettings& settings_;
+    const OperationCheck& check_;
     const Context& context_;
     ToolChoice tools_;
     InProcessStock stock_;
@@ -390,13 +396,13 @@ double retract_height(const Setup& setup, Vec3 tool_axis, double clearance) {
 }
 
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
-                       const Context& context, InProcessStock* left) {
+                       const Context& context, InProcessStock* left, const OperationCheck& check) {
     assert(!setup.access.orientations.empty());
     if (!cell.machine) {
         throw InputError(InputFault::config, "the cell file describes no machine",
                          "give a cell file with spindle and tools, docs/user/cell-file.md");
     }
-    ToolpathMaker maker(setup, mesh, cell, settings, context);
+    ToolpathMaker maker(setup, mesh, cell, settings, check, context);
     Toolpath toolpath = maker.make();
     if (left != nullptr) *left = maker.take_stock();
     return toolpath;

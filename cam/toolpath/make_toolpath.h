@@ -9,6 +9,9 @@
 
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/setup.h"
@@ -23,12 +26,15 @@ namespace qchopper {
 // all of the block.
 double retract_height(const Setup& setup, Vec3 tool_axis, double clearance);
 
+// Asked after each operation with those so far, in their order; what it throws ends the work.
+using OperationCheck = std::function<void(const std::vector<Operation>& so_far)>;
+
 // At least one operation. `left`, if given, becomes the foam that stands afterwards. Reports operations done; can be
 // cancelled. Preconditions: the mesh is that of the piece, and setup.access.orientations is not empty. Throws
 // InputError: config if the cell has no machine or no tool for it, use if a setting is not valid, if maps would have
 // too many cells, or if no operation has anything to cut.
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                        const ToolpathSettings& settings = {}, const Context& context = {},
-                       InProcessStock* left = nullptr);
+                       InProcessStock* left = nullptr, const OperationCheck& check = {});
 
 }  // namespace qchopper

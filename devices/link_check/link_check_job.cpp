@@ -73,7 +73,7 @@ bool comes_to_idle(LinkChecker& checker) {
 }
 
 // A ticket that must be refused for one of its fields.
-void expect_refused_field(LinkChecker& checker, TestJob job, const char* field, const std::string& what,
+void expect_refused_field(LinkChecker& checker, const TestJob& job, const char* field, const std::string& what,
                           const std::function<void(Registers&)>& change) {
     Registers block = encode(job.ticket);
     change(block);

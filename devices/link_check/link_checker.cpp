@@ -92,7 +92,7 @@ bool LinkChecker::may(const std::string& question) {
 }
 
 BusAnswer LinkChecker::read(const Block& block) {
-    const BusAnswer answer = bus_.read_input(block.base, block.count);
+    BusAnswer answer = bus_.read_input(block.base, block.count);
     if (answer.end == BusEnd::lost) {
         expect(block, block.fields.front().name, false, "is answered in time, and the connection stays open",
                answer.why);
@@ -192,7 +192,7 @@ Status LinkChecker::send(const Command& command, double patience_s) {
     write_command(command);
     const double began_s = now_s();
     for (;;) {
-        const Status now = status();
+        Status now = status();
         const bool is_ours = now.ack_owner == command.owner && now.ack_seq == command.seq;
         if (is_ours && now.ack_result != AckResult::pending) return now;
         if (now_s() - began_s > patience_s) return now;

@@ -26,6 +26,15 @@ FieldTiles FieldTiles::grown(std::size_t cells) const {
     return wider;
 }
 
+FieldTiles FieldTiles::common(const FieldTiles& other) const {
+    assert(columns_ == other.columns_ && tile_rows_ == other.tile_rows_);
+    FieldTiles both = *this;
+    for (std::size_t tile = 0; tile < marked_.size(); ++tile) {
+        if (other.marked_[tile] == 0) both.marked_[tile] = 0;
+    }
+    return both;
+}
+
 bool FieldTiles::is_empty() const {
     return std::all_of(marked_.begin(), marked_.end(), [](std::uint8_t mark) { return mark == 0; });
 }

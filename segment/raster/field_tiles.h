@@ -26,6 +26,9 @@ class FieldTiles {
     // All tiles that have a cell within so many columns and rows of a cell of these. O(tiles * log cells).
     FieldTiles grown(std::size_t cells) const;
 
+    // The tiles of both. Precondition: the maps are as large.
+    FieldTiles common(const FieldTiles& other) const;
+
     bool holds(std::size_t cell) const { return marked_[tile_of(cell)] != 0; }
     bool is_empty() const;
 

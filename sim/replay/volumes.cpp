@@ -177,6 +177,7 @@ class Measuring {
 
  private:
     static constexpr double closing_cell = 1;
+    static constexpr double upright = 0.999;  // height of a unit vector along the tool axis: 2.6 degrees
     void add_line(double x, double y, const std::vector<Dexel>& target, VolumeFigures& sum) const;
     bool stands(Vec3 p) const;
 
@@ -214,8 +215,10 @@ VolumeFigures Measuring::of_row(std::int32_t row) const {
 }
 
 bool Measuring::stands(Vec3 p) const {
+    if (p.z < options_.floor) return false;
     const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const Closing* closing) {
         const SurfaceMap& map = closing->map;
+        if (p.z < options_.oblique_floor && map.frame_in_setup.row[2].z < upright) return false;
         const Vec3 q = apply_inverse(map.frame_in_setup, p);
         // Above the closing, its cells beside that of q included, by more than what cells do not know.
         return q.z > map.highest_about(q.x, q.y) + closing_cell;
@@ -239,7 +242,7 @@ void Measuring::add_line(double x, double y, const std::vector<Dexel>& target, V
         if (i.low >= i.high) continue;
         sum.leftover_mm3 += area * (i.high - i.low);
         parts({i.low, i.high}, [&](Vec3 p, double volume) {
-            if (p.z < options_.floor || !stands(p)) return;
+            if (!stands(p)) return;
             sum.standing_mm3 += volume;
             sum.standing_at = p;
         });

@@ -17,6 +17,7 @@ struct VolumeOptions {
     double gouge_tolerance = 0.25;  // what is cut out less deep than this is not counted in beyond_mm3
     double standing = 1.25;         // foam so far from the piece, and reachable, stands there by mistake
     double floor = 2;               // foam lower than this is left on the floor: roughing leaves its allowance there
+    double oblique_floor = 16;      // the same where no upright tool comes: levels over an oblique floor leave steps
 };
 
 struct VolumeFigures {
@@ -24,7 +25,7 @@ struct VolumeFigures {
     double gouge_mm3 = 0;     // of the target that was removed
     double beyond_mm3 = 0;    // of it, what lies deeper in the target than the tolerance
     double standing_mm3 = 0;  // of leftover_mm3, what lies farther from the target than `standing` and higher than
-                              // `floor`, where the tools of the program come to
+                              // the floor's foam, where the tools of the program come to
     Vec3 standing_at;         // a point of it
 };
 

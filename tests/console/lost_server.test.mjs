@@ -33,26 +33,35 @@ windowTest("A server that is stopped for a while is shown as silent, and comes b
 });
 
 windowTest("A request on its way when the server is another one is not sent", server, async (keep) => {
-  const page = keep(await openWindow(browser, server));
+  // The window reads the events itself, so that what it asks passes through its own fetch.
+  const before = (page) => page.addInitScript(() => delete globalThis.SharedWorker);
+  const page = keep(await openWindow(browser, server, "", { before }));
   const check = page.getByRole("button", { name: "Check a.ply" });
   await check.waitFor();
   const port = new URL(server.link).port;
-  // The page must not learn of the new server before the click.
+  // Requests wait until the other server is there. Those of the stream of events, which alone can be aborted, never get
+  // there: the page must learn of the other server by its request.
   await page.evaluate(() => {
     const ask = window.fetch;
+    const isOtherThere = new Promise((done) => (window.letGo = done));
     window.sent = [];
-    window.fetch = (path, options) => {
-      window.sent.push([path, options?.headers?.Authorization ?? null]);
+    window.fetch = async (path, options) => {
+      const isOfStream = options?.signal !== undefined;
+      window.sent.push({ path, isOfStream, key: options?.headers?.Authorization ?? null });
+      await (isOfStream ? new Promise(() => undefined) : isOtherThere);
       return ask(path, options);
     };
   });
   await server.kill();
-  await page.waitForTimeout(300);
-  await server.start(`127.0.0.1:${port}`);
+  await page.waitForFunction(() => window.sent.some((one) => one.isOfStream));
   await check.click();
+  await page.waitForFunction(() => window.sent.some((one) => !one.isOfStream));
+  await server.start(`127.0.0.1:${port}`);
+  await page.evaluate(() => window.letGo());
   await page.getByText("The server was started again and has a new key").first().waitFor();
   const sent = await page.evaluate(() => window.sent);
-  assert.deepEqual(sent.filter(([, key]) => key !== null), []);
+  assert.deepEqual(sent.filter((one) => one.key !== null), []);
+  assert.deepEqual(sent.filter((one) => one.path !== "/api/hello"), []);
 });
 
 windowTest("A server that was started again gets no key, and the page asks for its link", server, async (keep) => {

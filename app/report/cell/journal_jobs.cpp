@@ -139,6 +139,7 @@ std::vector<JournalJobReport> jobs_of(const std::vector<JournalContent>& journal
         }
     }
     std::vector<JournalJobReport> jobs;
+    jobs.reserve(by_id.size());
     for (auto& [id, report] : by_id) jobs.push_back(std::move(report));
     std::ranges::stable_sort(jobs, {}, [](const JournalJobReport& report) { return report.job.created_ms; });
     return jobs;

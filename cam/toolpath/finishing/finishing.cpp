@@ -116,9 +116,15 @@ FinishingMasks masks_of(const HeightField& cl, const FinishingRegion& region, co
         CellMask& mask = is_steep ? masks.steep : masks.flat;
         mask[row * cl.columns + column] = 1;
     };
+    // What a tool touches lies at most its radius beside its tip.
+    FieldTiles near(cl.columns, cl.rows);
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        if (region[i] < not_finished) near.add(i);
+    }
+    near = near.grown(static_cast<std::size_t>(radius / cl.cell) + 2);
+    if (tiles != nullptr) near = near.common(*tiles);
     parallel_for(0, cl.rows, [&](std::size_t row) {
-        const std::vector<CellSpan> whole{{0, cl.columns}};
-        for (const CellSpan& span : tiles != nullptr ? tiles->spans(row) : whole) {
+        for (const CellSpan& span : near.spans(row)) {
             for (std::size_t column = span.first; column < span.end; ++column) mark(column, row);
         }
     });

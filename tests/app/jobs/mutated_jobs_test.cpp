@@ -18,7 +18,8 @@ namespace {
 // over foam that is gone already, a cut of a little foam that finishing cuts too. One that is not refused is listed and
 // not counted.
 const std::set<std::string> may_be_equivalent{"point_lowered", "point_moved_x",     "point_moved_y",
-                                              "retract_lost",  "last_retract_lost", "last_roughing_lost"};
+                                              "retract_lost",  "last_retract_lost", "last_roughing_lost",
+                                              "target_raised"};
 
 struct MutatedJobs : ::testing::TestWithParam<std::string> {
     // All mutations are tried in one process: the job is made once.

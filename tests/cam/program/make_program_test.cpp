@@ -279,6 +279,29 @@ TEST(MakeProgram, RefusesWhatIsOutOfReach) {
     }
 }
 
+TEST(MakeProgram, AnOperationIsRefusedByItselfInTheSameWords) {
+    Job job = kr60_job();
+    const auto refusal = [&job]() -> std::string {
+        for (std::size_t i = 0; i < job.toolpath.operations.size(); ++i) {
+            try {
+                check_operation(job.toolpath.operations[i], i + 1, job.setup, job.reachability, job.cell);
+            } catch (const ProgramRefused& refused) {
+                EXPECT_TRUE(refused.run());
+                return refused.what();
+            }
+        }
+        return {};
+    };
+    EXPECT_EQ(refusal(), "");
+    job.setup.placement.x += 1500;
+    try {
+        program_of(job);
+        FAIL();
+    } catch (const ProgramRefused& refused) {
+        EXPECT_EQ(refusal(), refused.what());
+    }
+}
+
 TEST(MakeProgram, LeavesOutTheLittleThatNoConfigurationTakes) {
     Job job = kr60_job(2);
     job.reachability = {};

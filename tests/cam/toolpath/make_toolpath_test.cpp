@@ -72,6 +72,26 @@ TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
     EXPECT_EQ(left, 0U);
 }
 
+TEST(MakeToolpath, EachOperationIsAskedAsSoonAsItIsMade) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 50});
+    const auto setup = setup_of(mesh, 18);
+    std::vector<Operation> asked;
+    const OperationCheck keep = [&](const std::vector<Operation>& so_far) {
+        ASSERT_EQ(so_far.size(), asked.size() + 1);
+        asked.push_back(so_far.back());
+    };
+    const Toolpath path = make_toolpath(setup, mesh, ready_cell(), coarse_settings(), {}, nullptr, keep);
+    EXPECT_EQ(path.operations, asked);
+    ASSERT_GT(asked.size(), 1U);
+    int times = 0;
+    const OperationCheck refuse = [&](const std::vector<Operation>&) {
+        ++times;
+        throw InputError(InputFault::use, "out of reach", "");
+    };
+    EXPECT_THROW(make_toolpath(setup, mesh, ready_cell(), coarse_settings(), {}, nullptr, refuse), InputError);
+    EXPECT_EQ(times, 1) << "nothing is made after it";
+}
+
 // Levels that are evenly spaced would leave up to the height of one on it, which finishing would have to cut.
 TEST(MakeToolpath, RoughingLeavesTheAllowanceAloneOnALargeFlat) {
     constexpr double half = 80;

@@ -13,7 +13,8 @@ ScanSurface flat_scan(double height) {
     scan.columns = scan.rows = 21;
     for (std::uint32_t i = 0; i < 21 * 21; ++i) {
         scan.grid.push_back(i);
-        scan.points.push_back({i % 21 * 1.0, i / 21 * 1.0, height});
+        const std::uint32_t row = i / 21;
+        scan.points.push_back({i % 21 * 1.0, row * 1.0, height});
     }
     return scan_surface("flat", triangulate(scan, 2), true);
 }

@@ -27,7 +27,8 @@ RangeScan flat_grid(std::size_t columns, std::size_t rows, const std::vector<std
             continue;
         }
         scan.grid.push_back(static_cast<std::uint32_t>(scan.points.size()));
-        scan.points.push_back({static_cast<double>(i % columns), static_cast<double>(i / columns), 0});
+        const auto row = i / columns;
+        scan.points.push_back({static_cast<double>(i % columns), static_cast<double>(row), 0});
     }
     return scan;
 }

@@ -31,6 +31,7 @@ inline Pose turned_about(Vec3 axis, double angle, Vec3 shift = {}) {
 // Poses of scans in the frame of the surface: eight around it, one from above and one from below.
 inline std::vector<Pose> ten_poses() {
     std::vector<Pose> poses;
+    poses.reserve(10);
     for (int i = 0; i < 8; ++i) poses.push_back(turned_about({0, 1, 0}, i * std::numbers::pi / 4));
     poses.push_back(turned_about({1, 0, 0}, std::numbers::pi / 2));
     poses.push_back(turned_about({1, 0, 0}, -std::numbers::pi / 2));

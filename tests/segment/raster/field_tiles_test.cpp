@@ -58,5 +58,17 @@ TEST(FieldTiles, GrownHoldAllThatIsNear) {
     }
 }
 
+TEST(FieldTiles, CommonOnesAreThoseOfBoth) {
+    FieldTiles one(columns, rows);
+    FieldTiles other(columns, rows);
+    one.add(0);
+    one.add(20 * columns + 37);
+    other.add(20 * columns + 37);
+    other.add(40 * columns);
+    const FieldTiles both = one.common(other);
+    for (std::size_t i = 0; i < columns * rows; ++i) ASSERT_EQ(both.holds(i), one.holds(i) && other.holds(i)) << i;
+    EXPECT_FALSE(both.is_empty());
+}
+
 }  // namespace
 }  // namespace qchopper

@@ -51,15 +51,15 @@ TEST(ProgramRun, ABlockNumberNamesChunkAndLine) {
 
 TEST(ProgramRun, TheTipGoesStraightFromEndToEnd) {
     const JobRun run = short_run();
-    EXPECT_EQ(place_at(run, 0).tip, Vec3(10, 0, 50)) << "where it was before the first step is not known";
+    EXPECT_EQ(place_at(run, 0).tip, (Vec3{10, 0, 50})) << "where it was before the first step is not known";
     const RunPlace within = place_at(run, 11);
     EXPECT_EQ(within.block, program_block(1, 62));
     EXPECT_EQ(within.tool, 8);
-    EXPECT_NEAR(norm(within.tip - Vec3(40, 50, 50)), 0, 1e-9);
+    EXPECT_NEAR(norm(within.tip - Vec3{40, 50, 50}), 0, 1e-9);
     EXPECT_EQ(place_at(run, 20).tool, 4);
     EXPECT_EQ(place_at(run, 6).block, program_block(1, 62)) << "the next line begins";
     EXPECT_EQ(place_at(run, 1e9).block, program_block(0, 30));
-    EXPECT_EQ(place_at(run, 1e9).tip, Vec3(10, 0, 50));
+    EXPECT_EQ(place_at(run, 1e9).tip, (Vec3{10, 0, 50}));
 }
 
 TEST(ProgramRun, ALineEndsWithItsLastStep) {

@@ -270,25 +270,44 @@ TEST(Closings, ABullGoesDeeperIntoAValleyThanAFinerFlatEnd) {
     EXPECT_NEAR(height_of(closing_of(scene, 0, wide, 0.5, {})), 15, 0.5);
 }
 
+// A block of which all is milled but its rim, which begins 20 mm beside the bar.
+struct RimmedBar : Bar {
+    StockModel rimmed{stock_model.block(), {{0, 0, 1}, {std::sin(1.0), 0, std::cos(1.0)}}, 0.25};
+
+    RimmedBar() {
+        const Cutter flat = cutter_of(cell.machine->tools[1]);
+        for (double y = -20; y < length + 20; y += 8) rimmed.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});
+        for (const double x : {-45.0, 45.0}) rimmed.cut(0, flat, 100, {x, -25, -2}, {x, length + 25, -2});
+        for (const double y : {-10.0, length + 10}) rimmed.cut(0, flat, 100, {-45, y, -2}, {45, y, -2});
+        scene.block = rimmed.block();
+    }
+    VolumeFigures measured(const VolumeOptions& options) const { return measure_volumes(rimmed, scene, options, {}); }
+};
+
 // The groove is none of it: the tools of the program do not come there.
 TEST(StandingFoam, IsAWallBesideThePieceAndNotTheGrooveThatNoToolOfTheProgramEnters) {
     Bar bar;
     VolumeOptions options;
     options.around = 24;
     EXPECT_LT(measure_volumes(bar.stock_model, bar.scene, options, {}).standing_mm3, 100);
-    // A block of which all is milled but its rim, which begins 20 mm beside the bar.
-    StockModel rimmed(bar.stock_model.block(), {{0, 0, 1}, {std::sin(1.0), 0, std::cos(1.0)}}, 0.25);
-    const Cutter flat = cutter_of(bar.cell.machine->tools[1]);
-    for (double y = -20; y < length + 20; y += 8) rimmed.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});
-    for (const double x : {-45.0, 45.0}) rimmed.cut(0, flat, 100, {x, -25, -2}, {x, length + 25, -2});
-    for (const double y : {-10.0, length + 10}) rimmed.cut(0, flat, 100, {-45, y, -2}, {45, y, -2});
-    bar.scene.block = rimmed.block();
-    const VolumeFigures left = measure_volumes(rimmed, bar.scene, options, {});
+    const VolumeFigures left = RimmedBar().measured(options);
     EXPECT_GT(left.standing_mm3, 1000);
     const Vec3 at = left.standing_at;
     EXPECT_GT(std::max({std::abs(at.x) - 35, -at.y, at.y - length}), 20 - 0.5);
     EXPECT_GE(at.z, options.floor);
     EXPECT_LE(at.z, tall);
+}
+
+TEST(StandingFoam, StepsOnTheFloorAreLeftWhereOnlyTiltedToolsCome) {
+    RimmedBar bar;
+    bar.scene.chunks = {{"qc_1_001", ball_12, 1}};
+    VolumeOptions options;
+    options.around = 24;
+    const VolumeFigures left = bar.measured(options);
+    EXPECT_GT(left.standing_mm3, 1000);
+    EXPECT_GE(left.standing_at.z, options.oblique_floor);
+    options.oblique_floor = options.floor;
+    EXPECT_GT(bar.measured(options).standing_mm3, 1.5 * left.standing_mm3);
 }
 
 TEST(Closings, WhereNothingIsInTheWayOfTheFinestToolItsOwnIsEnough) {

@@ -63,7 +63,8 @@ void add_frames(std::vector<Mutation>& all) {
                                  return replace_first(line, 0, "TRUE,\"\"", "FALSE,\"STN1\"");
                              })));
     all.push_back(replaced("quaternion_not_normalised", "[1.00000000,", "[0.90000000,"));
-    all.push_back(in_one_chunk("target_moved", each_of("local const", 2, plus(5))));
+    all.push_back(in_one_chunk("target_lowered", each_of("local const", 2, plus(-5))));
+    all.push_back(in_one_chunk("target_raised", each_of("local const", 2, plus(5))));
     all.push_back(in_one_chunk("target_turned", each("local const", [](std::string& line) {
                                    const auto [begin, end] = number_of(line, 0, 3);
                                    const auto [begin2, end2] = number_of(line, 0, 4);

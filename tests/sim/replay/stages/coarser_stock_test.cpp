@@ -25,8 +25,10 @@ StockRecord some_stock() {
 bool is_near_surface(const StockModel& stock_model, Vec3 point, double distance) {
     for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) {
         for (int i = 0; i < 27; ++i) {
-            const Vec3 off{static_cast<double>(i % 3 - 1), static_cast<double>(i / 3 % 3 - 1),
-                           static_cast<double>(i / 9 - 1)};
+            const int row = i / 3 % 3;
+            const int layer = i / 9;
+            const Vec3 off{static_cast<double>(i % 3 - 1), static_cast<double>(row - 1),
+                           static_cast<double>(layer - 1)};
             const Vec3 there = point + share * distance * off;
             if (stock_model.is_in_stock(there) != stock_model.is_in_stock(point)) return true;
         }
