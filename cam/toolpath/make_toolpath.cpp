@@ -49,6 +49,7 @@ namespace qchopper {
 namespace {
 
 // Of the maps of foam, mm: a quarter of the finest tool's radius between 0.5 and 1, and a sixth of it from there on.
+// What others cost and leave: docs/measurements/performance.md.
 double stock_cell_of(const CuttingTool& finest) {
     const double radius = 0.5 * finest.diameter;
     return std::max(std::clamp(radius / 4, 0.5, 1.0), radius / 6);

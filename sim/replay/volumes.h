@@ -24,8 +24,8 @@ struct VolumeFigures {
     double leftover_mm3 = 0;  // of foam outside of the target, above z = 0, within `around` of its projection
     double gouge_mm3 = 0;     // of the target that was removed
     double beyond_mm3 = 0;    // of it, what lies deeper in the target than the tolerance
-    double standing_mm3 = 0;  // of leftover_mm3, what lies farther from the target than `standing` and higher than
-                              // the floor's foam, where the tools of the program come to
+    double standing_mm3 = 0;  // of leftover_mm3, what lies farther from the target than `standing` where the tools
+                              // of the program come to: upright ones higher than `floor`, others than `oblique_floor`
     Vec3 standing_at;         // a point of it
 };
 
