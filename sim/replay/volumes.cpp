@@ -159,9 +159,13 @@ class Measuring {
           zone_(*scene.target, grid_, options.around),
           tree_(*scene.target),
           holes_(scene),
-          known_(scene, closing_cell) {
+          known_(scene, {closing_cell, options.around}),
+          over_floor_(scene, {closing_cell, options.around, options.floor_clearance}) {
         for (std::size_t d = 0; d < milling_orientations(scene); ++d) {
-            for (const Closing* closing : known_.along(d, tools_along(scene, d), context)) closings_.push_back(closing);
+            const std::vector<std::size_t> tools = tools_along(scene, d);
+            for (const Closing* closing : known_.along(d, tools, context)) closings_.push_back(closing);
+            if (scene.orientations[d].tool_axis.z < upright) continue;
+            for (const Closing* closing : over_floor_.along(d, tools, context)) floor_closings_.push_back(closing);
         }
         by_row_.resize(static_cast<std::size_t>(grid_.rows));
         for (std::uint32_t t = 0; t < scene.target->triangles.size(); ++t) {
@@ -189,7 +193,9 @@ class Measuring {
     TriangleTree tree_;
     HoleSpace holes_;
     Closings known_;
-    std::vector<const Closing*> closings_;  // of what the tools of the program reach
+    Closings over_floor_;
+    std::vector<const Closing*> closings_;        // of what the tools of the program reach
+    std::vector<const Closing*> floor_closings_;  // of what they do where they are upright, with a clearance
     std::vector<std::vector<std::uint32_t>> by_row_;
 };
 
@@ -216,9 +222,9 @@ VolumeFigures Measuring::of_row(std::int32_t row) const {
 
 bool Measuring::stands(Vec3 p) const {
     if (p.z < options_.floor) return false;
-    const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const Closing* closing) {
+    const std::vector<const Closing*>& closings = p.z < options_.oblique_floor ? floor_closings_ : closings_;
+    const bool is_reached = std::any_of(closings.begin(), closings.end(), [&](const Closing* closing) {
         const SurfaceMap& map = closing->map;
-        if (p.z < options_.oblique_floor && map.frame_in_setup.row[2].z < upright) return false;
         const Vec3 q = apply_inverse(map.frame_in_setup, p);
         // Above the closing, its cells beside that of q included, by more than what cells do not know.
         return q.z > map.highest_about(q.x, q.y) + closing_cell;

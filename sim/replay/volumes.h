@@ -18,6 +18,8 @@ struct VolumeOptions {
     double standing = 1.25;         // foam so far from the piece, and reachable, stands there by mistake
     double floor = 2;               // foam lower than this is left on the floor: roughing leaves its allowance there
     double oblique_floor = 16;      // the same where no upright tool comes: levels over an oblique floor leave steps
+    double floor_clearance = 6;     // that holder and spindle of an upright tool keep from the piece where it comes to
+                                    // steps of the floor: less is not planned with, beside foam that others leave
 };
 
 struct VolumeFigures {

@@ -104,8 +104,10 @@ void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CuttingTo
 
 // Raises tips to where flat discs above them, holder and spindle, are clear of the surface. Tips that are no_surface
 // are not asked for.
-void clear_holder(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, SurfaceMap& tips) {
-    const std::vector<BodyDisc> discs = discs_of(tool, *holders.scene().cell->machine);
+void clear_holder(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, double clearance,
+                  SurfaceMap& tips) {
+    std::vector<BodyDisc> discs = discs_of(tool, *holders.scene().cell->machine);
+    for (BodyDisc& disc : discs) disc.radius += clearance, disc.above -= clearance;
     float lowest = -no_surface;  // before tips are raised
     for (const float tip : tips.height) {
         if (tip != no_surface) lowest = std::min(lowest, tip);
@@ -144,9 +146,9 @@ std::vector<float> tips_about(const CellBlocks& asked, const CuttingTool& tool, 
 }
 
 // The closing of the target, of the cells asked for: of a map of its tips.
-void close(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, const CellBlocks& asked,
-           SurfaceMap& map) {
-    clear_holder(holders, orientation, tool, map);
+void close(HolderMaps& holders, std::size_t orientation, const CuttingTool& tool, double clearance,
+           const CellBlocks& asked, SurfaceMap& map) {
+    clear_holder(holders, orientation, tool, clearance, map);
     map.height = eroded(map, cutter_of(tool), asked);
 }
 
@@ -209,14 +211,15 @@ bool adds_nothing(const CuttingTool& tool, const CuttingTool& finer, bool is_fin
 
 }  // namespace
 
-SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
-                      const Context& context) {
+SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool,
+                      const ClosingOptions& options, const Context& context) {
     context.check_cancelled();
-    SurfaceMap map = target_surface(scene, orientation, cell, margin_of(tool, cell));
+    const auto around = static_cast<std::int32_t>(std::ceil(options.around / options.cell));
+    SurfaceMap map = target_surface(scene, orientation, options.cell, std::max(around, margin_of(tool, options.cell)));
     const CellBlocks all = CellBlocks::all_of(map);
     map.height = tips_about(all, tool, map);
     HolderMaps holders(scene);
-    close(holders, orientation, tool, all, map);
+    close(holders, orientation, tool, options.holder_clearance, all, map);
     context.check_cancelled();
     return map;
 }
@@ -305,7 +308,7 @@ std::vector<std::optional<ReachingTool>> first_reach(const ReplayScene& scene, c
             map.height = tips_about(blocks, own, map);
             std::optional<SurfaceMap> tips;
             if (!kept && own.shape == ToolShape::ball && tool != tools.back()) tips = map;
-            close(holders, d, own, blocks, map);
+            close(holders, d, own, 0, blocks, map);
             closed.emplace_back(tool, map.is_limited);
             const std::vector<std::uint8_t> is_near = near_closing(map, points, asked, within);
             for (std::size_t k = 0; k < asked.size(); ++k) {
@@ -324,7 +327,7 @@ const Closing& Closings::of(std::size_t orientation, std::size_t tool, const Con
     const auto [found, is_new] = known_.try_emplace({orientation, tool});
     if (is_new) {
         const CuttingTool& own = scene_.cell->machine->tools[tool];
-        found->second = {tool, orientation, closing_of(scene_, orientation, own, cell_, context)};
+        found->second = {tool, orientation, closing_of(scene_, orientation, own, options_, context)};
     }
     return found->second;
 }

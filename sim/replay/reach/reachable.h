@@ -20,9 +20,15 @@
 
 namespace qchopper {
 
+struct ClosingOptions {
+    double cell = 1;
+    double around = 0;            // that the map goes on beside the target; never less than twice the tool's radius
+    double holder_clearance = 0;  // that holder and spindle keep from the target, beside it and above it
+};
+
 // The closing along a direction by a tool. Throws Cancelled.
-SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool, double cell,
-                      const Context& context);
+SurfaceMap closing_of(const ReplayScene& scene, std::size_t orientation, const CuttingTool& tool,
+                      const ClosingOptions& options, const Context& context);
 
 // The tools that the program uses along each direction, and those that parts before it used: ascending, each once.
 std::vector<StockTool> used_tools(const ReplayScene& scene);
@@ -50,11 +56,11 @@ struct Closing {
     SurfaceMap map;
 };
 
-// Closings in cells of a size, each computed once. Not for several threads at once.
+// Closings by the same options, each computed once. Not for several threads at once.
 class Closings {
  public:
     // The scene must outlive it.
-    Closings(const ReplayScene& scene, double cell) : scene_(scene), cell_(cell) {}
+    Closings(const ReplayScene& scene, const ClosingOptions& options) : scene_(scene), options_(options) {}
     // What the tools of these indices reach together along a direction: the closing by the finest of each shape, and,
     // where its holder keeps it away, those by coarser ones whose holder does not. Others add nothing: a larger ball
     // fits in only where a smaller one does, a wider flat end where a narrower one does; of bulls and cones all are
@@ -66,7 +72,7 @@ class Closings {
     const Closing& of(std::size_t orientation, std::size_t tool, const Context& context);
 
     const ReplayScene& scene_;
-    double cell_;
+    ClosingOptions options_;
     std::map<std::pair<std::size_t, std::size_t>, Closing> known_;  // by direction and tool
 };
 

@@ -150,11 +150,11 @@ void expect_few_are_enough(double wall, std::size_t expected) {
     scene.cell = &cell;
     scene.orientations = {{{0, 0, 1}, 0, {}}};
     scene.target = &mesh;
-    Closings known(scene, 0.5);
+    Closings known(scene, {0.5});
     const std::vector<const Closing*> few = known.along(0, allowed_tools(scene), {});
     EXPECT_EQ(few.size(), expected);
     std::vector<SurfaceMap> all;
-    for (const std::size_t tool : {0, 2, 3}) all.push_back(closing_of(scene, 0, cell.machine->tools[tool], 0.5, {}));
+    for (const std::size_t tool : {0, 2, 3}) all.push_back(closing_of(scene, 0, cell.machine->tools[tool], {0.5}, {}));
     for (double x = 0.25; x < 60; x += 0.5) {
         for (double y = 0.25; y < 60; y += 0.5) {
             double lowest_of_few = 1e9;
@@ -186,7 +186,7 @@ TEST(FirstReach, IsTheFirstClosingThatComesToAPoint) {
     constexpr double within = 0.6;
     const auto tools = [&](std::size_t) { return allowed_tools(scene); };
     const std::vector<std::optional<ReachingTool>> reach = first_reach(scene, points, tools, cell_size, within, {});
-    Closings known(scene, cell_size);
+    Closings known(scene, {cell_size});
     std::vector<const Closing*> closings = known.along(0, allowed_tools(scene), {});
     for (const Closing* closing : known.along(1, allowed_tools(scene), {})) closings.push_back(closing);
     std::map<std::pair<std::size_t, std::size_t>, int> count;
@@ -258,7 +258,7 @@ TEST(Closings, ABullGoesDeeperIntoAValleyThanAFinerFlatEnd) {
     scene.cell = &cell;
     scene.orientations = {{{0, 0, 1}, 0, {}}};
     scene.target = &mesh;
-    Closings known(scene, 0.5);
+    Closings known(scene, {0.5});
     const std::vector<const Closing*> few = known.along(0, allowed_tools(scene), {});
     ASSERT_EQ(few.size(), 2U) << "the wider flat end adds nothing";
     const auto height_of = [&](const SurfaceMap& map) {
@@ -267,7 +267,29 @@ TEST(Closings, ABullGoesDeeperIntoAValleyThanAFinerFlatEnd) {
     };
     EXPECT_NEAR(height_of(few[0]->map), 10, 0.5);
     EXPECT_NEAR(height_of(few[1]->map), 1 + 11 / std::sin(std::numbers::pi / 4) - 11, 0.5);
-    EXPECT_NEAR(height_of(closing_of(scene, 0, wide, 0.5, {})), 15, 0.5);
+    EXPECT_NEAR(height_of(closing_of(scene, 0, wide, {0.5}, {})), 15, 0.5);
+}
+
+// A wall of 130 mm, beside which the holder of a ball of 6 mm, 20 mm wide and 100 mm above the tip, stops 30 mm high.
+TEST(Closings, ClearanceOfTheHolderIsKeptBesideAndBelowIt) {
+    Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    const CuttingTool ball = cell.machine->tools[3];
+    const TriangleMesh wall = shapes::box({-50, -50, 0}, {0, 50, 130});
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.orientations = {{{0, 0, 1}, 0, {}}};
+    scene.target = &wall;
+    const auto height_at = [](const SurfaceMap& map, double x) {
+        const Vec3 q = apply_inverse(map.frame_in_setup, Vec3{x, 0, 0});
+        return apply(map.frame_in_setup, Vec3{q.x, q.y, map.at(q.x, q.y)}).z;
+    };
+    const SurfaceMap touching = closing_of(scene, 0, ball, {0.5, 30}, {});
+    EXPECT_NEAR(height_at(touching, 5), 30, 0.5);
+    EXPECT_LT(height_at(touching, 10.5), 2) << "the ball comes 3 mm nearer than its holder";
+    const SurfaceMap clear = closing_of(scene, 0, ball, {0.5, 30, 6}, {});
+    EXPECT_NEAR(height_at(clear, 5), 36, 0.5);
+    EXPECT_NEAR(height_at(clear, 10.5), 36, 0.5);
+    EXPECT_LT(height_at(clear, 17), 2);
 }
 
 // A block of which all is milled but its rim, which begins 20 mm beside the bar.
@@ -310,9 +332,23 @@ TEST(StandingFoam, StepsOnTheFloorAreLeftWhereOnlyTiltedToolsCome) {
     EXPECT_GT(bar.measured(options).standing_mm3, 1.5 * left.standing_mm3);
 }
 
+// The rim is 20 mm beside a bar that is 3 mm higher than the tools are long; their holder is 48 mm wide.
+TEST(StandingFoam, StepsOnTheFloorAreLeftWhereAnUprightHolderComesNarrowly) {
+    RimmedBar bar;
+    for (CuttingTool& tool : bar.cell.machine->tools) tool.stick_out = tall - 3, tool.holder = {{48, 50}};
+    VolumeOptions options;
+    options.around = 24;
+    options.floor_clearance = 2;
+    const VolumeFigures touching = bar.measured(options);
+    options.floor_clearance = 6;
+    const VolumeFigures clear = bar.measured(options);
+    EXPECT_LT(clear.standing_mm3, touching.standing_mm3 - 100);
+    EXPECT_GT(clear.standing_mm3, 0);
+}
+
 TEST(Closings, WhereNothingIsInTheWayOfTheFinestToolItsOwnIsEnough) {
     Bar bar;
-    Closings known(bar.scene, 0.5);
+    Closings known(bar.scene, {0.5});
     const auto all = known.along(0, allowed_tools(bar.scene), {});
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(bar.cell.machine->tools[all[0]->tool].number, ball_6);

@@ -26,7 +26,7 @@ TEST(ClosingOf, IsLimitedByHolderAndSpindleBesideATower) {
     scene.cell = &cell;
     scene.orientations.push_back({{0, 0, 1}, 0, {}});
     scene.target = &mesh;
-    const SurfaceMap map = closing_of(scene, 0, tool, 0.5, {});
+    const SurfaceMap map = closing_of(scene, 0, tool, {0.5}, {});
     const auto height_beside = [&](double mm) {
         const Vec3 p = apply_inverse(map.frame_in_setup, Vec3{10 + mm, 5, 0});
         return apply(map.frame_in_setup, Vec3{p.x, p.y, map.at(p.x, p.y)}).z;
