@@ -13,6 +13,9 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <new>
+
+#include "base/huge_pages.h"
 
 namespace qchopper {
 
@@ -48,9 +51,24 @@ std::size_t peak_memory() {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-    constexpr int largest = 32 << 20;  // the most that glibc takes
-    ::mallopt(M_MMAP_THRESHOLD, largest);
+    ::mallopt(M_MMAP_MAX, 0);  // a threshold ends at 32 MB, and maps are larger
     ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+    // A block that is freed unused becomes the top of the heap, which keeps what is said of its pages. It is smaller
+    // than the threshold, and only addresses until it is written to. Where there are not so many, nothing is said.
+    constexpr std::size_t size = std::size_t{3} << 29;
+    void* block = ::operator new(size, std::nothrow);
+    if (block != nullptr) use_huge_pages(block, size);
+    ::operator delete(block);
+#endif
+}
+
+void give_back_freed_memory(std::size_t resident) {
+#ifdef __GLIBC__
+    std::ifstream file("/proc/self/statm");
+    std::size_t whole = 0;
+    std::size_t pages = 0;
+    if (!(file >> whole >> pages)) return;
+    if (pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) > resident) ::malloc_trim(0);
 #endif
 }
 

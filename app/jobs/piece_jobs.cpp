@@ -23,6 +23,7 @@
 #include "base/files/file.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "base/process.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/cell/job_tools.h"
@@ -262,13 +263,14 @@ void record_jobs(Project& project, const Segmentation& segmentation, std::size_t
     project.jobs.insert(later, written.begin(), written.end());
 }
 
-// The programs that have to be made, the largest first, and in which order all jobs are written: these first.
+// The programs that have to be made, or the toolpaths if they are all that is made now, the largest first, and in which
+// order all jobs are written: these first.
 struct JobPlan {
     std::vector<PlannedProgram> programs;
     std::vector<std::size_t> order;  // of the pieces; the first ones are those of the programs
 };
 
-JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>& piece_setups) {
+JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>& piece_setups, ProgramSteps steps) {
     const std::size_t count = piece_setups.size();
     std::vector<double> effort(count, 0);
     const bool has_programs = none_because(orders).empty();
@@ -277,8 +279,12 @@ JobPlan plan_jobs(const JobOrders& orders, const std::vector<const PlacedSetup*>
         const TriangleMesh& mesh = *orders.segmentation.pieces[i].mesh;
         if (!has_programs || !piece_setup.fits() || is_only_sawn(piece_setup.setup(), mesh)) return;
         std::error_code error;
-        if (fs::exists(kept_file(orders, job_input(orders, i, piece_setup)), error)) return;
-        effort[i] = program_effort(piece_setup.setup());
+        const JobInput input = job_input(orders, i, piece_setup);
+        bool is_kept = fs::exists(kept_file(orders, input), error);
+        if (!is_kept && steps == ProgramSteps::toolpath) {
+            is_kept = fs::exists(toolpath_file(orders.folder / "cache", source_of(orders, input)), error);
+        }
+        if (!is_kept) effort[i] = program_effort(piece_setup.setup());
     });
     JobPlan plan;
     for (std::size_t i = 0; i < count; ++i) plan.order.push_back(i);
@@ -348,6 +354,7 @@ void in_order_of(const JobPlan& plan, ProgramSteps steps, StageTimer& stage, con
         Timings timings;
         work(i, progress.of(k, &timings));
         times[i] = timings.so_far();
+        give_back_freed_memory();
         const std::lock_guard lock(finishing);
         finish(i);
         progress.finish(k);
@@ -430,7 +437,7 @@ std::vector<PieceReport> follow_toolpaths(const fs::path& folder, const Project&
     for (std::size_t i = 0; i < piece_setups.size(); ++i) {
         reports.push_back(report_of(folder, project, segmentation.pieces[i], *piece_setups[i], setups.cell()));
     }
-    JobPlan plan = plan_jobs(orders, piece_setups);
+    JobPlan plan = plan_jobs(orders, piece_setups, ProgramSteps::toolpath);
     if (missing == MissingToolpaths::not_made) plan.programs.clear();
     std::atomic<bool> is_known = true;
     in_order_of(
@@ -453,7 +460,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     std::vector<MadeJob> made(count);
     const Project ordered = project;  // what the threads read, while the records change
     const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);
-    const JobPlan plan = plan_jobs(orders, piece_setups);
+    const JobPlan plan = plan_jobs(orders, piece_setups, ProgramSteps::all);
     in_order_of(
         plan, has_toolpaths(orders, plan, piece_setups) ? ProgramSteps::after_toolpath : ProgramSteps::all, stage,
         context, [&](std::size_t i, const Context& own) { made[i] = make_job(orders, i, *piece_setups[i], own); },

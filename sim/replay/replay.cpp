@@ -104,6 +104,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     StockModel stock_model(scene.block, tool_axes, options.cell);
     if (scene.before != nullptr) stock_model.start_from(*scene.before);
     report.milling = mill_stock(stock_model, path, scene, options.is_worst, log, context);
+    stock_model.end_milling();
     report.account = account_of(path, report.time, report.milling, *scene.cell->machine);
     check_removal_rate(path, report.milling.lines, scene, log);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);

@@ -4,6 +4,9 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include <cstddef>
+#include <fstream>
+#include <limits>
 #include <vector>
 
 namespace qchopper {
@@ -13,6 +16,14 @@ long page_faults() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return usage.ru_minflt;
+}
+
+std::size_t resident_pages() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t whole = 0;
+    std::size_t resident = 0;
+    file >> whole >> resident;
+    return resident;
 }
 
 // A block of 16 MB is written to and freed, twenty times.
@@ -37,6 +48,19 @@ TEST(Process, FreedMemoryIsKept) {
     keep_freed_memory();
     const long kept = faults_of_blocks();
     EXPECT_GT(given_back, 4 * kept) << kept;
+}
+
+TEST(Process, FreedMemoryIsGivenBackWhenItIsAskedFor) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "memory is not managed by glibc";
+#endif
+    keep_freed_memory();
+    faults_of_blocks();
+    const std::size_t kept = resident_pages();
+    give_back_freed_memory(std::numeric_limits<std::size_t>::max());
+    EXPECT_EQ(resident_pages(), kept) << "so much is not resident";
+    give_back_freed_memory(0);
+    EXPECT_LT(resident_pages() + 2000, kept) << "of the 4096 of a block";
 }
 
 TEST(Process, CpuTimeAndPeakMemoryGrow) {

@@ -120,6 +120,25 @@ void DexelColumns::begin() {
     for (const OtherMap& other : others_) version_ += other.map->version;
 }
 
+void DexelColumns::leave() {
+    for (const std::unique_ptr<DexelTile>& tile : own_->tiles()) {
+        if (!tile || tile->version == 0) continue;
+        tile->known_from = std::vector<float>();  // = {} would keep the memory
+        tile->slabs = std::vector<DexelTile::Slab>();
+        tile->version = DexelTile::nothing_known;
+    }
+}
+
+void DexelColumns::end() {
+    leave();
+    for (const std::unique_ptr<DexelTile>& tile : own_->tiles()) {
+        if (!tile) continue;
+        tile->low = tile->high = std::vector<float>();
+        tile->below.fill({});
+        tile->version = 0;
+    }
+}
+
 DexelTile& DexelColumns::tile(std::int32_t tx, std::int32_t ty) {
     DexelTile& tile = own_->made_tile(tx, ty);
     if (tile.version == version_) return tile;

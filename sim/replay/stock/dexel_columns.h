@@ -38,6 +38,10 @@ class DexelColumns {
 
     // To be called after other directions may have been milled: nothing is known of their removals then.
     void begin();
+    // Gives back the memory of what is known of other directions, when another one is milled.
+    void leave();
+    // And that of the columns, which are made again if this direction is milled again.
+    void end();
     // A tile with columns, not yet known.
     DexelTile& tile(std::int32_t tx, std::int32_t ty);
     // Makes the column be what is left of the foam, from a height up.

@@ -40,7 +40,9 @@ struct DexelTile {
     std::array<float, cells / (square * square)> max_of_square = filled_with_infinity();
     float max_cut = std::numeric_limits<float>::infinity();
     std::uint64_t lowered_squares = 0;  // a bit per square: since measure_most
-    std::uint64_t version = 0;          // of the other maps to which `known_from` refers; 0: there are no columns
+    // Of the other maps to which `known_from` refers; 0: there are no columns, nothing_known: and no `known_from`.
+    std::uint64_t version = 0;
+    static constexpr std::uint64_t nothing_known = std::numeric_limits<std::uint64_t>::max();
     // Of the columns of a square of 8 x 8 cells, slab by slab from the top of the map down, once it is known
     // (dexel_columns.h): whether one of the other maps has removed all of it, or else a bit for each of them that may
     // have removed something there.
@@ -187,6 +189,7 @@ class DexelMap {
     double centre_y(std::int32_t j) const { return y_min_ + (j + 0.5) * cell_; }
     const DexelTile* tile(std::int32_t tx, std::int32_t ty) const { return tiles_[index(tx, ty)].get(); }
     DexelTile& made_tile(std::int32_t tx, std::int32_t ty);
+    const std::vector<std::unique_ptr<DexelTile>>& tiles() const { return tiles_; }  // row by row; null: not made
     double cell() const { return cell_; }
     std::int32_t tiles_x() const { return tiles_x_; }
     std::int32_t tiles_y() const { return tiles_y_; }

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/process.h"
 #include "sim/replay/stock/dexel_columns.h"
 #include "sim/replay/stock/dexel_map.h"
 
@@ -186,9 +187,20 @@ CellRange moved_by(const CellRange& cells, std::int32_t x, std::int32_t y) {
 
 }  // namespace
 
+DexelColumns& StockModel::columns_along(std::size_t orientation) {
+    if (orientation != milled_) columns_[milled_]->leave();
+    milled_ = orientation;
+    return *columns_[orientation];
+}
+
+void StockModel::end_milling() {
+    for (const std::unique_ptr<DexelColumns>& columns : columns_) columns->end();
+    give_back_freed_memory();  // holes between tiles, too small for maps of all the target
+}
+
 CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
     DexelMap& map = *maps_[orientation];
-    DexelColumns& columns = *columns_[orientation];
+    DexelColumns& columns = columns_along(orientation);
     const Vec3 a = apply_inverse(map.frame_in_block, from);
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
     const SweepOverMap sweep(cutter, a, move, map);
@@ -238,7 +250,7 @@ CutResult StockModel::cut(std::size_t orientation, const Cutter& cutter, double 
 
 double StockModel::disc_contact(std::size_t orientation, double radius, double above, Vec3 from, Vec3 to) {
     DexelMap& map = *maps_[orientation];
-    DexelColumns& columns = *columns_[orientation];
+    DexelColumns& columns = columns_along(orientation);
     const Vec3 a = apply_inverse(map.frame_in_block, from) + Vec3{0, 0, above};
     const Vec3 move = apply_inverse(map.frame_in_block, to) + Vec3{0, 0, above} - a;
     const SweepOverMap disc({ToolShape::flat, radius, 0, 0, 1}, a, move, map);

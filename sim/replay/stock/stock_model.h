@@ -53,6 +53,8 @@ class StockModel {
     // Largest height by which foam stands above the underside of a disc that moves along a direction, its middle at
     // height `above` over the tip; 0 or less: it is clear.
     double disc_contact(std::size_t orientation, double radius, double above, Vec3 from, Vec3 to);
+    // When no more is cut: gives back half of the memory. A cut after it is as any other, but takes longer.
+    void end_milling();
     // Whether foam is at a point.
     bool is_in_stock(Vec3 point) const;
     // The intervals of foam on the line from + t * along, for t of [low, high], ascending; `along` of length 1.
@@ -78,6 +80,8 @@ class StockModel {
     double cell_;
     std::vector<std::unique_ptr<DexelMap>> maps_;
     std::vector<std::unique_ptr<DexelColumns>> columns_;  // per map
+    DexelColumns& columns_along(std::size_t orientation);
+    std::size_t milled_ = 0;  // the orientation that is milled
     // Where the last move of cut() ended: what is about there was removed by it.
     struct LastMove {
         std::size_t orientation = 0;

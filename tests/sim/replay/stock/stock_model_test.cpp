@@ -179,6 +179,22 @@ TEST(StockModel, StrokesThatGoOnRemoveWhatTheyRemoveApart) {
     EXPECT_EQ(together.record(), apart.record());
 }
 
+TEST(StockModel, CutsAfterTheEndOfMillingRemoveWhatTheyWouldHaveRemoved) {
+    StockModel ended(block, three_axes, 0.5);
+    StockModel other(block, three_axes, 0.5);
+    std::vector<Pose> frames;
+    for (std::size_t d = 0; d < three_axes.size(); ++d) frames.push_back(ended.frame_in_block(d));
+    std::size_t strokes = 0;
+    for (const Stroke& s : random_strokes(200, frames)) {
+        const CutResult one = ended.cut(s.orientation, s.cutter, 3, s.from, s.to);
+        ASSERT_NEAR(one.volume, other.cut(s.orientation, s.cutter, 3, s.from, s.to).volume, 1e-3);
+        ASSERT_EQ(ended.disc_contact(s.orientation, 12, 2, s.from, s.to),
+                  other.disc_contact(s.orientation, 12, 2, s.from, s.to));
+        if (++strokes % 20 == 0) ended.end_milling();
+    }
+    EXPECT_EQ(ended.record(), other.record());
+}
+
 // Sum over the columns about a stroke, each asked of all directions.
 double foam_about(const StockModel& stock_model, const Stroke& s, double cell) {
     const Pose& frame = stock_model.frame_in_block(s.orientation);
