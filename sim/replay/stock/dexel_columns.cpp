@@ -133,8 +133,9 @@ void DexelColumns::end() {
     leave();
     for (const std::unique_ptr<DexelTile>& tile : own_->tiles()) {
         if (!tile) continue;
-        tile->low = tile->high = std::vector<float>();
-        tile->below.fill({});
+        tile->low = std::vector<float>();
+        tile->high = std::vector<float>();
+        for (std::vector<DexelTile::Below>& row : tile->below) row = std::vector<DexelTile::Below>();
         tile->version = 0;
     }
 }
