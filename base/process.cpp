@@ -51,7 +51,7 @@ std::size_t peak_memory() {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-    ::mallopt(M_MMAP_MAX, 0);  // a threshold ends at 32 MB, and maps are larger
+    ::mallopt(M_MMAP_MAX, 0);  // a threshold would end at 32 MB, and maps of large pieces are larger
     ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     // A block that is freed unused becomes the top of the heap, which keeps what is said of its pages. It is smaller
     // than the threshold, and only addresses until it is written to. Where there are not so many, nothing is said.

@@ -20,7 +20,7 @@
 
 namespace qchopper {
 
-struct ClosingOptions {
+struct ClosingOptions {  // mm
     double cell = 1;
     double around = 0;            // that the map goes on beside the target; never less than twice the tool's radius
     double holder_clearance = 0;  // that holder and spindle keep from the target, beside it and above it

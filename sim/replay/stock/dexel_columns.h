@@ -38,9 +38,9 @@ class DexelColumns {
 
     // To be called after other directions may have been milled: nothing is known of their removals then.
     void begin();
-    // Gives back the memory of what is known of other directions, when another one is milled.
+    // Gives back the memory of what is known of other directions: when another one is milled. O(tiles).
     void leave();
-    // And that of the columns, which are made again if this direction is milled again.
+    // And that of the columns, which are made again if this direction is milled again. O(tiles).
     void end();
     // A tile with columns, not yet known.
     DexelTile& tile(std::int32_t tx, std::int32_t ty);

@@ -53,7 +53,8 @@ class StockModel {
     // Largest height by which foam stands above the underside of a disc that moves along a direction, its middle at
     // height `above` over the tip; 0 or less: it is clear.
     double disc_contact(std::size_t orientation, double radius, double above, Vec3 from, Vec3 to);
-    // When no more is cut: gives back half of the memory. A cut after it is as any other, but takes longer.
+    // When no more is cut: gives back the memory of the columns, most of all. A cut after it is as any other, but takes
+    // longer.
     void end_milling();
     // Whether foam is at a point.
     bool is_in_stock(Vec3 point) const;
@@ -75,13 +76,14 @@ class StockModel {
     double cell() const { return cell_; }
 
  private:
+    DexelColumns& columns_along(std::size_t orientation);  // to be milled
+
     Box block_;
     std::vector<Vec3> tool_axes_;
     double cell_;
     std::vector<std::unique_ptr<DexelMap>> maps_;
     std::vector<std::unique_ptr<DexelColumns>> columns_;  // per map
-    DexelColumns& columns_along(std::size_t orientation);
-    std::size_t milled_ = 0;  // the orientation that is milled
+    std::size_t milled_ = 0;                              // the orientation that is milled
     // Where the last move of cut() ended: what is about there was removed by it.
     struct LastMove {
         std::size_t orientation = 0;

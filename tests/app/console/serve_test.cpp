@@ -352,7 +352,9 @@ TEST(Serve, KillsInACourseLoseNoAnsweredDecision) {
     const fs::path copy = p.folder.path / "expected" / "p.qch";
     std::mt19937 random(20);
     int answered = 0;
-    for (int kills = 0; kills < kills_wanted(); ++kills) {
+    // A busy machine answers less between two kills: there are more of them then.
+    constexpr int enough = 20;
+    for (int kills = 0; kills < kills_wanted() || (answered <= enough && kills < 10 * kills_wanted()); ++kills) {
         Server server(p);
         const auto wait = std::chrono::milliseconds(50 + random() % 300);
         std::thread killer([&] {
@@ -386,7 +388,7 @@ TEST(Serve, KillsInACourseLoseNoAnsweredDecision) {
         segment_project(copy, {}, step.request, {});
         EXPECT_EQ(program::bytes_in(copy / "project.json"), is) << "the unanswered one is whole: " << step.body;
     }
-    EXPECT_GT(answered, 20);
+    EXPECT_GT(answered, enough);
 }
 
 }  // namespace
